@@ -1,0 +1,121 @@
+//! The panel of the convergence history.
+
+use super::decimate::{Px, thin_polyline};
+use super::layers;
+use super::legend::{self, Entry, Sample};
+use super::log_axis::LogScale;
+use super::notes::Notes;
+use super::plot::{self, Axis, Rect};
+use super::scale::{Interval, Scale};
+use super::svg::{Path, Svg};
+use super::ticks::Direction;
+use super::{CurveFigure, level, message, style};
+
+/// Iterations are marked one by one up to this number.
+const MOST_MARKED: usize = 50;
+
+const MOST_POINTS: usize = 1500;
+
+/// Draws the panel into `area`.
+pub(super) fn draw(svg: &mut Svg, area: Rect, figure: &CurveFigure<'_>, notes: &mut Notes) {
+    plot::heading(svg, area, "Convergence");
+    let history = figure.history;
+    let Some(iterations) = Interval::around(history.iter().map(|h| h.0 as f64)) else {
+        message(svg, area, "no history");
+        return;
+    };
+    let sx = if iterations.span() == 0.0 {
+        Scale::new(iterations.grown(0.6), area.x, area.right())
+    } else {
+        Scale::new(iterations, area.x + 8.0, area.right() - 8.0)
+    };
+    let across = Axis::linear(&sx, Direction::Across, true, "iteration");
+    let values = history.iter().flat_map(|h| [h.1, h.2]);
+    let Some(log) = LogScale::around(values, area.bottom() - 5.0, area.y + 5.0) else {
+        plot::draw_axes(svg, area, &across, &Axis::default());
+        message(svg, area, "all residuals are 0");
+        return;
+    };
+    let log = log.reaching(level::value(figure), 2);
+    let axis = Axis {
+        marks: log.marks(17.0),
+        name: "residual".to_owned(),
+    };
+    plot::draw_axes(svg, area, &across, &axis);
+    level::draw(svg, area, figure, &log);
+    let rms = Series::new(history.iter().map(|h| (h.0, h.2)), &sx, &log);
+    let largest = Series::new(history.iter().map(|h| (h.0, h.1)), &sx, &log);
+    if rms.any_below || largest.any_below {
+        notes.add(format!(
+            "history below {} (0 included) drawn at the lower edge",
+            log.bottom_label()
+        ));
+    }
+    rms.draw(svg, style::RMS, true, history.len());
+    largest.draw(svg, style::LARGEST, false, history.len());
+    let entry = |sample, name: &str| Entry {
+        sample,
+        name: name.to_owned(),
+    };
+    let row = [
+        entry(Sample::Line(style::LARGEST.to_owned(), 1.6), "largest"),
+        entry(Sample::Dashes(style::RMS.to_owned(), 1.6), "rms"),
+    ];
+    legend::draw_right(svg, area, &row);
+}
+
+/// One measure of the residuals, iteration by iteration.
+struct Series {
+    places: Vec<Px>,
+    any_below: bool,
+}
+
+impl Series {
+    fn new(values: impl Iterator<Item = (usize, f64)>, sx: &Scale, log: &LogScale) -> Self {
+        let mut any_below = false;
+        let places = values
+            .map(|(iteration, value)| {
+                if value.is_nan() {
+                    return (f64::NAN, f64::NAN);
+                }
+                let (y, below) = log.at(value);
+                any_below |= below;
+                (sx.at(iteration as f64), y)
+            })
+            .collect();
+        Self { places, any_below }
+    }
+
+    fn draw(&self, svg: &mut Svg, colour: &str, dashed: bool, count: usize) {
+        let line = layers::polyline(&thin_polyline(&self.places, MOST_POINTS).points);
+        if !line.is_empty() {
+            let tag = svg
+                .tag("path")
+                .attribute("d", line.data())
+                .attribute("fill", "none")
+                .attribute("stroke", colour)
+                .number("stroke-width", 1.6)
+                .attribute("stroke-linejoin", "round");
+            if dashed {
+                tag.attribute("stroke-dasharray", "5 3").end();
+            } else {
+                tag.end();
+            }
+        }
+        if count > MOST_MARKED {
+            return;
+        }
+        let mut dots = Path::default();
+        for p in self.places.iter().filter(|p| !p.0.is_nan()) {
+            dots.dot(*p);
+        }
+        if !dots.is_empty() {
+            svg.tag("path")
+                .attribute("d", dots.data())
+                .attribute("stroke", colour)
+                .number("stroke-width", 4.2)
+                .attribute("stroke-linecap", "round")
+                .end();
+        }
+    }
+}

@@ -1,0 +1,279 @@
+//! A small SVG writer: elements, escaped text, rounded numbers, paths.
+
+use super::text;
+
+/// Text of an SVG document as it grows.
+#[derive(Default)]
+pub(super) struct Svg {
+    body: String,
+}
+
+impl Svg {
+    /// Begins the tag `name`; close it with one of the methods of [`Tag`].
+    pub(super) fn tag(&mut self, name: &'static str) -> Tag<'_> {
+        self.body.push('<');
+        self.body.push_str(name);
+        Tag { svg: self, name }
+    }
+
+    /// Ends an element that was left open by [`Tag::open`].
+    pub(super) fn close(&mut self, name: &str) {
+        self.body.push_str("</");
+        self.body.push_str(name);
+        self.body.push_str(">\n");
+    }
+
+    /// A straight line.
+    pub(super) fn line(&mut self, from: (f64, f64), to: (f64, f64), colour: &str, width: f64) {
+        self.tag("line")
+            .number("x1", from.0)
+            .number("y1", from.1)
+            .number("x2", to.0)
+            .number("y2", to.1)
+            .attribute("stroke", colour)
+            .number("stroke-width", width)
+            .end();
+    }
+
+    /// One line of text; `anchor` is `start`, `middle` or `end`.
+    pub(super) fn label(
+        &mut self,
+        at: (f64, f64),
+        size: f64,
+        colour: &str,
+        anchor: &str,
+        content: &str,
+    ) {
+        self.tag("text")
+            .number("x", at.0)
+            .number("y", at.1)
+            .number("font-size", size)
+            .attribute("fill", colour)
+            .attribute("text-anchor", anchor)
+            .text(size, content);
+    }
+
+    /// The text written so far.
+    pub(super) fn finish(self) -> String {
+        self.body
+    }
+}
+
+/// A tag whose attributes are being written.
+pub(super) struct Tag<'a> {
+    svg: &'a mut Svg,
+    name: &'static str,
+}
+
+impl Tag<'_> {
+    pub(super) fn attribute(self, name: &str, value: &str) -> Self {
+        let body = &mut self.svg.body;
+        body.push(' ');
+        body.push_str(name);
+        body.push_str("=\"");
+        escape_into(body, value);
+        body.push('"');
+        self
+    }
+
+    pub(super) fn number(self, name: &str, value: f64) -> Self {
+        let body = &mut self.svg.body;
+        body.push(' ');
+        body.push_str(name);
+        body.push_str("=\"");
+        push_number(body, value);
+        body.push('"');
+        self
+    }
+
+    /// Ends the tag as an element without content.
+    pub(super) fn end(self) {
+        self.svg.body.push_str("/>\n");
+    }
+
+    /// Ends the tag; the content follows, then [`Svg::close`].
+    pub(super) fn open(self) {
+        self.svg.body.push_str(">\n");
+    }
+
+    /// Ends the tag with plain text as its content.
+    pub(super) fn plain(self, content: &str) {
+        let body = &mut self.svg.body;
+        body.push('>');
+        escape_into(body, content);
+        self.svg.close(self.name);
+    }
+
+    /// Ends the tag with text in which superscript digits are set as raised
+    /// digits: few fonts besides the embedded one hold all of them.
+    fn text(self, size: f64, content: &str) {
+        let body = &mut self.svg.body;
+        body.push('>');
+        let raise = 0.36 * size;
+        let mut raised = false;
+        for (run, is_raised) in text::superscript_runs(content) {
+            // Each shift of the baseline lasts, so the next run undoes it.
+            if is_raised || raised {
+                body.push_str("<tspan dy=\"");
+                push_number(body, if is_raised { -raise } else { raise });
+                if is_raised {
+                    body.push_str("\" font-size=\"");
+                    push_number(body, text::RAISED_SCALE * size);
+                }
+                body.push_str("\">");
+                escape_into(body, &run);
+                body.push_str("</tspan>");
+            } else {
+                escape_into(body, &run);
+            }
+            raised = is_raised;
+        }
+        self.svg.close(self.name);
+    }
+}
+
+/// The `d` attribute of a path.
+#[derive(Default)]
+pub(super) struct Path {
+    data: String,
+}
+
+impl Path {
+    fn command(&mut self, letter: char, numbers: &[f64]) {
+        self.data.push(letter);
+        for (k, &number) in numbers.iter().enumerate() {
+            if k > 0 {
+                self.data.push(' ');
+            }
+            push_number(&mut self.data, number);
+        }
+    }
+
+    pub(super) fn move_to(&mut self, p: (f64, f64)) {
+        self.command('M', &[p.0, p.1]);
+    }
+
+    pub(super) fn line_to(&mut self, p: (f64, f64)) {
+        self.command('L', &[p.0, p.1]);
+    }
+
+    pub(super) fn cubic_to(&mut self, a: (f64, f64), b: (f64, f64), p: (f64, f64)) {
+        self.command('C', &[a.0, a.1, b.0, b.1, p.0, p.1]);
+    }
+
+    /// A dot: a line too short to see, which round caps make a disc.
+    pub(super) fn dot(&mut self, p: (f64, f64)) {
+        self.move_to(p);
+        self.data.push_str("h.01");
+    }
+
+    /// A square with the centre `p`.
+    pub(super) fn square(&mut self, p: (f64, f64), side: f64) {
+        self.move_to((p.0 - 0.5 * side, p.1 - 0.5 * side));
+        self.command('h', &[side]);
+        self.command('v', &[side]);
+        self.command('h', &[-side]);
+        self.data.push('z');
+    }
+
+    /// An upright stroke at `x`.
+    pub(super) fn upright(&mut self, x: f64, from: f64, to: f64) {
+        self.move_to((x, from));
+        self.command('V', &[to]);
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.data.is_empty()
+    }
+
+    pub(super) fn data(&self) -> &str {
+        &self.data
+    }
+}
+
+/// Appends `value` rounded to 1/100, without needless zeros.
+fn push_number(out: &mut String, value: f64) {
+    // Far outside any picture, yet within what every viewer can hold.
+    const FAR: f64 = 1.0e6;
+    let hundredths = if value.is_nan() {
+        0
+    } else {
+        (value.clamp(-FAR, FAR) * 100.0).round() as i64
+    };
+    if hundredths < 0 {
+        out.push('-');
+    }
+    let magnitude = hundredths.unsigned_abs();
+    out.push_str(&(magnitude / 100).to_string());
+    let rest = magnitude % 100;
+    if rest > 0 {
+        out.push('.');
+        out.push(char::from(b'0' + (rest / 10) as u8));
+        if rest % 10 > 0 {
+            out.push(char::from(b'0' + (rest % 10) as u8));
+        }
+    }
+}
+
+/// Appends `text` so that it is safe as content and within quotes.
+///
+/// Characters that XML 1.0 forbids even as references become U+FFFD.
+fn escape_into(out: &mut String, text: &str) {
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            '\t' | '\n' | '\r' => out.push(' '),
+            '\u{0}'..='\u{1f}' | '\u{7f}'..='\u{9f}' | '\u{fffe}' | '\u{ffff}' => {
+                out.push('\u{fffd}');
+            }
+            _ => out.push(c),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn number(value: f64) -> String {
+        let mut out = String::new();
+        push_number(&mut out, value);
+        out
+    }
+
+    #[test]
+    fn numbers_are_short_and_rounded() {
+        assert_eq!(number(1.0), "1");
+        assert_eq!(number(-0.001), "0");
+        assert_eq!(number(12.345678), "12.35");
+        assert_eq!(number(-3.1), "-3.1");
+        assert_eq!(number(0.05), "0.05");
+        assert_eq!(number(f64::NAN), "0");
+        assert_eq!(number(f64::INFINITY), "1000000");
+    }
+
+    #[test]
+    fn hostile_text_comes_back_from_a_parser() {
+        let hostile = "a<b> & \"c\" 'd' ]]> \u{1}\u{ffff}\u{85} \u{1F600}";
+        let mut svg = Svg::default();
+        svg.tag("text").attribute("id", hostile).plain(hostile);
+        let written = svg.finish();
+        let parsed = roxmltree::Document::parse(&written).unwrap();
+        let expected = "a<b> & \"c\" 'd' ]]> \u{fffd}\u{fffd}\u{fffd} \u{1F600}";
+        assert_eq!(parsed.root_element().text(), Some(expected));
+        assert_eq!(parsed.root_element().attribute("id"), Some(expected));
+    }
+
+    #[test]
+    fn superscripts_are_raised_and_the_baseline_returns() {
+        let mut svg = Svg::default();
+        svg.label((0.0, 0.0), 10.0, "#000", "start", "10⁻¹² m");
+        let written = svg.finish();
+        assert!(written.contains("10<tspan dy=\"-3.6\" font-size=\"7\">−12</tspan>"));
+        assert!(written.contains("<tspan dy=\"3.6\"> m</tspan>"));
+    }
+}

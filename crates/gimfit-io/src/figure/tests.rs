@@ -1,0 +1,2 @@
+//! Tests of whole figures.
+use super::*;

@@ -1,0 +1,90 @@
+//! The table that every reader returns.
+
+use std::fmt;
+
+/// Points read from a file, row by row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PointTable {
+    /// The file's name as given, or "standard input".
+    pub source: String,
+    /// What the file was read as.
+    pub format: PointFormat,
+    /// The airfoil's name or the track's name, where the file gives one.
+    pub title: Option<String>,
+    /// The names of the coordinate columns in order: those of the header, or
+    /// "column 1" and so on, counted in the file.
+    pub column_names: Vec<String>,
+    /// The coordinates, row-major: [`PointTable::rows`] times
+    /// [`PointTable::dimension`] finite numbers.
+    pub coordinates: Vec<f64>,
+    /// The line of each row in the file, from 1; `None` for binary files.
+    /// Lines past `u32::MAX` are given as `u32::MAX`.
+    pub row_lines: Option<Vec<u32>>,
+    /// Every choice made while reading, one sentence each.
+    pub notes: Vec<String>,
+    /// The column asked for as abscissa, one finite number per row.
+    pub abscissa: Option<Vec<f64>>,
+    /// The name of that column.
+    pub abscissa_name: Option<String>,
+}
+
+impl PointTable {
+    /// The number of coordinates of each point.
+    pub fn dimension(&self) -> usize {
+        self.column_names.len()
+    }
+
+    /// The number of points.
+    pub fn rows(&self) -> usize {
+        match self.dimension() {
+            0 => 0,
+            dimension => self.coordinates.len() / dimension,
+        }
+    }
+
+    /// Where row `row` (from 0) stands in the file: "line 17", or "point 16
+    /// (counted from 0)" where the file has no lines.
+    pub fn row_name(&self, row: usize) -> String {
+        match self.row_lines.as_ref().and_then(|lines| lines.get(row)) {
+            Some(line) => format!("line {line}"),
+            None => format!("point {row} (counted from 0)"),
+        }
+    }
+}
+
+/// The format a file was read as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum PointFormat {
+    /// Cells separated by commas or semicolons.
+    Csv,
+    /// Cells separated by tabs.
+    Tsv,
+    /// Cells separated by runs of blanks.
+    Whitespace,
+    /// An airfoil as one loop: a name, then pairs from the trailing edge.
+    AirfoilSelig,
+    /// An airfoil as two halves, each from the nose.
+    AirfoilLednicer,
+    /// A GPS track or route in GPX.
+    Gpx,
+    /// A NumPy array file.
+    Npy,
+    /// Text whose first three columns are coordinates.
+    Xyz,
+}
+
+impl fmt::Display for PointFormat {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            PointFormat::Csv => "CSV",
+            PointFormat::Tsv => "TSV",
+            PointFormat::Whitespace => "whitespace-separated text",
+            PointFormat::AirfoilSelig => "airfoil, Selig order",
+            PointFormat::AirfoilLednicer => "airfoil, Lednicer order",
+            PointFormat::Gpx => "GPX track",
+            PointFormat::Npy => "NumPy array",
+            PointFormat::Xyz => "XYZ",
+        })
+    }
+}

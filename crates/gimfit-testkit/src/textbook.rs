@@ -1,0 +1,62 @@
+//! The B-spline basis by its recursive definition (de Boor 1972; Cox 1972).
+
+/// `B_(i, p)(t)` over the knots `u`, by recursion; quotients 0/0 count as 0. The end of the last
+/// span that is not empty belongs to it.
+#[must_use]
+pub fn basis_function(u: &[f64], p: usize, i: usize, t: f64) -> f64 {
+    if p == 0 {
+        let inside = u[i] <= t && t < u[i + 1];
+        let domain_end = u[u.len() - 1];
+        let at_end = t == domain_end && u[i] < u[i + 1] && u[i + 1] == domain_end;
+        return f64::from(u8::from(inside || at_end));
+    }
+    let part = |weight: f64, length: f64, j: usize| {
+        if length > 0.0 { weight / length * basis_function(u, p - 1, j, t) } else { 0.0 }
+    };
+    part(t - u[i], u[i + p] - u[i], i) + part(u[i + p + 1] - t, u[i + p + 1] - u[i + 1], i + 1)
+}
+
+/// The point of a curve, from the definition; `control` holds a row per control point.
+#[must_use]
+pub fn curve_point(u: &[f64], p: usize, control: &[Vec<f64>], t: f64) -> Vec<f64> {
+    let mut point = vec![0.0; control[0].len()];
+    for (i, row) in control.iter().enumerate() {
+        let weight = basis_function(u, p, i, t);
+        for (x, c) in point.iter_mut().zip(row) {
+            *x += weight * c;
+        }
+    }
+    point
+}
+
+/// The collocation matrix `[B_i(t_j)]`, a row per parameter.
+#[must_use]
+pub fn collocation_matrix(u: &[f64], p: usize, parameters: &[f64]) -> Vec<Vec<f64>> {
+    let n = u.len() - p - 1;
+    parameters.iter().map(|&t| (0..n).map(|i| basis_function(u, p, i, t)).collect()).collect()
+}
+
+/// Averaged knots of an open curve (The NURBS Book, eq. 9.8).
+#[must_use]
+pub fn averaged_knots(p: usize, t: &[f64]) -> Vec<f64> {
+    let last = t.len() - 1;
+    let mut u = vec![t[0]; p + 1];
+    for j in 1..=last - p {
+        u.push((j..j + p).map(|i| t[i]).sum::<f64>() / p as f64);
+    }
+    u.extend(vec![t[last]; p + 1]);
+    u
+}
+
+/// Cumulated chord lengths on [0, 1].
+#[must_use]
+pub fn chord_parameters(points: &[Vec<f64>]) -> Vec<f64> {
+    let chord =
+        |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| (y - x).powi(2)).sum::<f64>().sqrt();
+    let mut t = vec![0.0];
+    for pair in points.windows(2) {
+        t.push(t[t.len() - 1] + chord(&pair[0], &pair[1]));
+    }
+    let total = t[t.len() - 1];
+    t.iter().map(|x| x / total).collect()
+}

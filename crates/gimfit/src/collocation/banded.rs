@@ -1,0 +1,96 @@
+//! Collocation of univariate bases: every row holds a few neighbouring weights.
+
+use super::kernel::{self, Rows};
+use super::{CollocationOperator, ResidualNorms};
+
+/// Square collocation matrix whose row `j` has `width` weights near column `j`, wrapping round for
+/// closed curves. Memory: `8 width + 4` bytes a row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BandedCollocation {
+    width: usize,
+    first: Vec<i32>,
+    weights: Vec<f64>,
+}
+
+impl BandedCollocation {
+    pub(super) fn from_rows(width: usize, first: Vec<i32>, weights: Vec<f64>) -> Self {
+        debug_assert_eq!(weights.len(), first.len() * width);
+        Self { width, first, weights }
+    }
+
+    pub(crate) fn rows(&self) -> Rows<'_> {
+        Rows {
+            width: self.width,
+            columns: self.first.len(),
+            first: &self.first,
+            weights: &self.weights,
+        }
+    }
+
+    /// The non-zero entries of row `j` as (column, weight).
+    pub fn row(&self, j: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let rows = self.rows();
+        self.signed_row(j).map(move |(column, weight)| (rows.column(column, 0), weight))
+    }
+
+    /// As [`BandedCollocation::row`], with columns that have not been wrapped.
+    pub(super) fn signed_row(&self, j: usize) -> impl Iterator<Item = (i32, f64)> + '_ {
+        let first = self.first[j];
+        let weights = &self.weights[j * self.width..][..self.width];
+        weights
+            .iter()
+            .enumerate()
+            .map(move |(k, &weight)| (first + k as i32, weight))
+            .filter(|&(_, weight)| weight != 0.0)
+    }
+
+    /// The diagonal entry of row `j`.
+    #[must_use]
+    pub fn diagonal(&self, j: usize) -> f64 {
+        self.row(j).find(|&(column, _)| column == j).map_or(0.0, |(_, weight)| weight)
+    }
+
+    /// Whether some row wraps round.
+    #[must_use]
+    pub fn is_cyclic(&self) -> bool {
+        let count = self.first.len() as i32;
+        let wraps = |j: usize| self.signed_row(j).any(|(c, _)| c < 0 || c >= count);
+        // Only rows near the ends can.
+        let reach = self.width.min(self.first.len());
+        (0..reach).any(wraps) || (self.first.len() - reach..self.first.len()).any(wraps)
+    }
+}
+
+impl CollocationOperator for BandedCollocation {
+    fn points(&self) -> usize {
+        self.first.len()
+    }
+
+    fn control_points(&self) -> usize {
+        self.first.len()
+    }
+
+    fn apply(&self, x: &[f64], dimension: usize, result: &mut [f64]) {
+        result.fill(0.0);
+        for (j, point) in result.chunks_exact_mut(dimension).enumerate() {
+            for (column, weight) in self.row(j) {
+                for (y, x) in point.iter_mut().zip(&x[column * dimension..]) {
+                    *y += weight * x;
+                }
+            }
+        }
+    }
+
+    fn difference_vectors(
+        &self,
+        data: &[f64],
+        control: &[f64],
+        dimension: usize,
+        result: &mut [f64],
+    ) -> ResidualNorms {
+        let (largest, max_index, sum) =
+            kernel::residual(self.rows(), data, control, dimension, result);
+        let max = if sum.is_finite() { largest.sqrt() } else { f64::NAN };
+        ResidualNorms { max, max_index, rms: (sum / self.first.len() as f64).sqrt() }
+    }
+}

@@ -1,0 +1,278 @@
+//! Inner loops over rows of weights. Slices in, slices out; callers check first.
+//!
+//! `D` is the dimension and `W` the row width when known at compile time, 0 when not; one body
+//! serves both, and the compiler unrolls the former.
+
+/// Rows of `width` weights that start at an unwrapped column each.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Rows<'a> {
+    pub(crate) width: usize,
+    pub(crate) columns: usize,
+    /// Column of the first weight; below 0 or past the last column it wraps round.
+    pub(crate) first: &'a [i32],
+    pub(crate) weights: &'a [f64],
+}
+
+impl Rows<'_> {
+    /// Column of weight `k` of a row that starts at `first`.
+    #[inline(always)]
+    pub(crate) fn column(&self, first: i32, k: usize) -> usize {
+        let column = first as isize + k as isize;
+        let count = self.columns as isize;
+        (if column < 0 {
+            column + count
+        } else if column >= count {
+            column - count
+        } else {
+            column
+        }) as usize
+    }
+
+    /// Whether no weight of a row wraps round.
+    #[inline(always)]
+    fn is_plain(&self, first: i32, width: usize) -> bool {
+        first >= 0 && first as usize + width <= self.columns
+    }
+}
+
+/// Picks the unrolled copy for the usual widths and dimensions.
+macro_rules! dispatch {
+    ($function:ident, $width:expr, $dimension:expr, $($argument:expr),*) => {
+        match ($width, $dimension) {
+            (4, 1) => $function::<4, 1>($($argument),*),
+            (4, 2) => $function::<4, 2>($($argument),*),
+            (4, 3) => $function::<4, 3>($($argument),*),
+            (3, 2) => $function::<3, 2>($($argument),*),
+            (3, 3) => $function::<3, 3>($($argument),*),
+            (6, 2) => $function::<6, 2>($($argument),*),
+            (6, 3) => $function::<6, 3>($($argument),*),
+            (_, 1) => $function::<0, 1>($($argument),*),
+            (_, 2) => $function::<0, 2>($($argument),*),
+            (_, 3) => $function::<0, 3>($($argument),*),
+            (_, 4) => $function::<0, 4>($($argument),*),
+            _ => $function::<0, 0>($($argument),*),
+        }
+    };
+}
+
+/// `result = data - A x`, with the largest squared norm of a row, its index, and the sum of all.
+pub(crate) fn residual(
+    rows: Rows<'_>,
+    data: &[f64],
+    x: &[f64],
+    dimension: usize,
+    result: &mut [f64],
+) -> (f64, usize, f64) {
+    dispatch!(residual_of, rows.width, dimension, rows, data, x, dimension, result)
+}
+
+#[inline(always)]
+fn residual_of<const W: usize, const D: usize>(
+    rows: Rows<'_>,
+    data: &[f64],
+    x: &[f64],
+    dimension: usize,
+    result: &mut [f64],
+) -> (f64, usize, f64) {
+    let width = if W == 0 { rows.width } else { W };
+    let dimension = if D == 0 { dimension } else { D };
+    let (mut largest, mut index, mut sum) = (-1.0, 0, 0.0);
+    let lines = rows.first.iter().zip(rows.weights.chunks_exact(width));
+    let points = data.chunks_exact(dimension).zip(result.chunks_exact_mut(dimension));
+    for (j, ((&first, weights), (q, r))) in lines.zip(points).enumerate() {
+        let mut square = 0.0;
+        if D == 0 {
+            r.copy_from_slice(q);
+            subtract_row::<W, D>(rows, first, weights, x, r);
+            r.iter().for_each(|component| square += component * component);
+        } else {
+            let mut difference = [0.0; D];
+            difference.copy_from_slice(q);
+            subtract_row::<W, D>(rows, first, weights, x, &mut difference);
+            difference.iter().for_each(|component| square += component * component);
+            r.copy_from_slice(&difference);
+        }
+        sum += square;
+        // A NaN is caught by the sum.
+        if square > largest {
+            largest = square;
+            index = j;
+        }
+    }
+    (largest.max(0.0), index, sum)
+}
+
+/// `point -= sum_k weights[k] x[column k]`.
+#[inline(always)]
+fn subtract_row<const W: usize, const D: usize>(
+    rows: Rows<'_>,
+    first: i32,
+    weights: &[f64],
+    x: &[f64],
+    point: &mut [f64],
+) {
+    let width = if W == 0 { weights.len() } else { W };
+    let dimension = if D == 0 { point.len() } else { D };
+    let point = &mut point[..dimension];
+    if rows.is_plain(first, width) {
+        let near = &x[first as usize * dimension..][..width * dimension];
+        for k in 0..width {
+            let control = &near[k * dimension..][..dimension];
+            for i in 0..dimension {
+                point[i] -= weights[k] * control[i];
+            }
+        }
+    } else {
+        for k in 0..width {
+            let control = &x[rows.column(first, k) * dimension..][..dimension];
+            for i in 0..dimension {
+                point[i] -= weights[k] * control[i];
+            }
+        }
+    }
+}
+
+/// Solves `(D / omega + L) y = r` in place, where D is the diagonal and L what stands left of it:
+/// one sweep of successive over-relaxation, told in difference vectors.
+pub(crate) fn sweep(rows: Rows<'_>, omega: f64, vectors: &mut [f64], dimension: usize) {
+    dispatch!(sweep_of, rows.width, dimension, rows, omega, vectors, dimension);
+}
+
+#[inline(always)]
+fn sweep_of<const W: usize, const D: usize>(
+    rows: Rows<'_>,
+    omega: f64,
+    vectors: &mut [f64],
+    dimension: usize,
+) {
+    let width = if W == 0 { rows.width } else { W };
+    let dimension = if D == 0 { dimension } else { D };
+    let lines = rows.first.iter().zip(rows.weights.chunks_exact(width));
+    for (j, (&first, weights)) in lines.enumerate() {
+        let (before, here) = vectors.split_at_mut(j * dimension);
+        let here = &mut here[..dimension];
+        let mut diagonal = 1.0;
+        for k in 0..width {
+            let column = rows.column(first, k);
+            if column < j {
+                let moved = &before[column * dimension..][..dimension];
+                for i in 0..dimension {
+                    here[i] -= weights[k] * moved[i];
+                }
+            } else if column == j {
+                diagonal = weights[k];
+            }
+        }
+        let scale = omega / diagonal;
+        for i in 0..dimension {
+            here[i] *= scale;
+        }
+    }
+}
+
+/// Eliminates row `j`, given as the band around its diagonal, against the rows before it.
+pub(crate) type Elimination = fn(usize, usize, usize, &mut [f64], &mut [f64], &mut [f64]) -> bool;
+
+/// The elimination of a band that reaches `below` to the left and `above` to the right of the
+/// diagonal, unrolled for the usual cubic ones.
+pub(crate) fn elimination(below: usize, above: usize) -> Elimination {
+    match (below, above) {
+        (1, 1) => eliminate_row::<1, 1>,
+        (1, 2) => eliminate_row::<1, 2>,
+        (2, 1) => eliminate_row::<2, 1>,
+        (2, 2) => eliminate_row::<2, 2>,
+        (3, 3) => eliminate_row::<3, 3>,
+        _ => eliminate_row::<0, 0>,
+    }
+}
+
+/// `lower` receives the multipliers of the `below` rows before, `upper` the reciprocal pivot and
+/// the `above` entries after it. False if the pivot vanishes. `B` and `A` are `below` and `above`
+/// when known at compile time, 0 when not.
+fn eliminate_row<const B: usize, const A: usize>(
+    j: usize,
+    below: usize,
+    above: usize,
+    band: &mut [f64],
+    lower: &mut [f64],
+    upper: &mut [f64],
+) -> bool {
+    let (below, above) = if B == 0 { (below, above) } else { (B, A) };
+    let wide = above + 1;
+    let band = &mut band[..below + wide];
+    for k in below.saturating_sub(j)..below {
+        let pivot_row = &upper[(j + k - below) * wide..][..wide];
+        let factor = band[k] * pivot_row[0];
+        band[k] = factor;
+        for offset in 1..wide {
+            band[k + offset] -= factor * pivot_row[offset];
+        }
+    }
+    band[below] = band[below].recip();
+    let lower = &mut lower[j * below..][..below];
+    for k in 0..below {
+        lower[k] = band[k];
+    }
+    let upper = &mut upper[j * wide..][..wide];
+    for k in 0..wide {
+        upper[k] = band[below + k];
+    }
+    band[below].is_finite()
+}
+
+/// Solves `L U x = r` in place for band factors: `lower` holds for each row the multipliers of the
+/// `below` rows before it, `upper` the reciprocal pivot and the `above` entries after it.
+pub(crate) fn substitute(
+    below: usize,
+    lower: &[f64],
+    above: usize,
+    upper: &[f64],
+    vectors: &mut [f64],
+    dimension: usize,
+) {
+    dispatch!(substitute_of, below + 2, dimension, below, lower, above, upper, vectors, dimension);
+}
+
+/// `W` is `below + 2` when known, so that the usual cubic bands (2 below, or 1) are unrolled.
+#[inline(always)]
+fn substitute_of<const W: usize, const D: usize>(
+    below: usize,
+    lower: &[f64],
+    above: usize,
+    upper: &[f64],
+    vectors: &mut [f64],
+    dimension: usize,
+) {
+    let below = if W == 0 { below } else { W - 2 };
+    let dimension = if D == 0 { dimension } else { D };
+    let count = vectors.len() / dimension;
+    if below > 0 {
+        for j in 1..count {
+            let (before, here) = vectors.split_at_mut(j * dimension);
+            let here = &mut here[..dimension];
+            let multipliers = &lower[j * below..][..below];
+            let reach = below.min(j);
+            let near = &before[(j - reach) * dimension..][..reach * dimension];
+            for k in 0..reach {
+                let factor = multipliers[below - reach + k];
+                for i in 0..dimension {
+                    here[i] -= factor * near[k * dimension + i];
+                }
+            }
+        }
+    }
+    for j in (0..count).rev() {
+        let (here, after) = vectors[j * dimension..].split_at_mut(dimension);
+        let entries = &upper[j * (above + 1)..][..above + 1];
+        let reach = above.min(count - 1 - j);
+        let near = &after[..reach * dimension];
+        for k in 0..reach {
+            for i in 0..dimension {
+                here[i] -= entries[k + 1] * near[k * dimension + i];
+            }
+        }
+        for i in 0..dimension {
+            here[i] *= entries[0];
+        }
+    }
+}

@@ -1,0 +1,65 @@
+//! How the control points that move become the control points that are stored.
+
+use crate::memory;
+
+/// A square iteration moves one control point per data point; a curve may store more.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ControlLayout {
+    /// Stored as they move.
+    Free,
+    /// The first and the last are stored `1 + per_end` times: the tied ends of Lin, Wang and Dong
+    /// (2004).
+    Tied {
+        /// Copies added at each end.
+        per_end: usize,
+    },
+    /// Stored from another start, with the first `degree` repeated at the end.
+    Periodic {
+        /// Stored position of the control point that belongs to data point 0.
+        shift: usize,
+        /// How many are repeated.
+        degree: usize,
+    },
+}
+
+impl ControlLayout {
+    /// The stored array of shape (n, dimension) for the moving one of shape (m, dimension).
+    #[must_use]
+    pub fn expand(&self, moving: Vec<f64>, dimension: usize) -> Vec<f64> {
+        let count = moving.len() / dimension;
+        match *self {
+            Self::Free => moving,
+            Self::Tied { per_end } => {
+                let mut stored = memory::with_capacity((count + 2 * per_end) * dimension);
+                let (first, last) = (&moving[..dimension], &moving[(count - 1) * dimension..]);
+                (0..per_end).for_each(|_| stored.extend_from_slice(first));
+                stored.extend_from_slice(&moving);
+                (0..per_end).for_each(|_| stored.extend_from_slice(last));
+                stored
+            }
+            Self::Periodic { shift, degree } => {
+                let mut stored = memory::with_capacity((count + degree) * dimension);
+                let start = (count - shift % count) % count * dimension;
+                stored.extend_from_slice(&moving[start..]);
+                stored.extend_from_slice(&moving[..start]);
+                stored.extend_from_within(..degree * dimension);
+                stored
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tied_ends_repeat_and_periodic_ones_rotate() {
+        let moving = vec![1.0, 2.0, 3.0, 4.0];
+        let tied = ControlLayout::Tied { per_end: 1 };
+        assert_eq!(tied.expand(moving.clone(), 1), [1.0, 1.0, 2.0, 3.0, 4.0, 4.0]);
+        let periodic = ControlLayout::Periodic { shift: 1, degree: 3 };
+        assert_eq!(periodic.expand(moving.clone(), 1), [4.0, 1.0, 2.0, 3.0, 4.0, 1.0, 2.0]);
+        assert_eq!(ControlLayout::Free.expand(moving.clone(), 1), moving);
+    }
+}

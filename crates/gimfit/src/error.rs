@@ -1,0 +1,186 @@
+//! What can be wrong with a request: one variant per broken precondition.
+//!
+//! Points are named by their position in the caller's array, counted from 0.
+
+/// A broken precondition. Running out of iterations is not an error but a
+/// [`Termination`](crate::Termination) in the report.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// No points at all: `fit_curve::<&[[f64; 2]]>(&[], ..)`.
+    #[error("there are no points; a curve needs at least degree + 1 = {needed}")]
+    NoPoints {
+        /// Points needed.
+        needed: usize,
+    },
+    /// Fewer points than `degree + 1`: three points and degree 3.
+    #[error(
+        "{points} distinct points are too few for degree {degree}, which needs at least {needed}; lower the degree or add points"
+    )]
+    TooFewPoints {
+        /// Points left after duplicates and a repeated closing point are taken out.
+        points: usize,
+        /// The degree asked for.
+        degree: usize,
+        /// Points needed.
+        needed: usize,
+    },
+    /// An array whose length is no multiple of the dimension, or dimension 0.
+    #[error("{length} coordinates are no whole number of points of dimension {dimension}")]
+    Shape {
+        /// Length of the flat array.
+        length: usize,
+        /// Dimension of a point.
+        dimension: usize,
+    },
+    /// NaN or an infinity in the data.
+    #[error("coordinate {coordinate} of point {point} is {value}; every coordinate must be finite")]
+    NotFinite {
+        /// Position of the point, from 0.
+        point: usize,
+        /// Position of the coordinate, from 0.
+        coordinate: usize,
+        /// The value met.
+        value: f64,
+    },
+    /// Coordinates so far apart that their differences overflow.
+    #[error("coordinate {coordinate} spans more than the range of doubles; scale the data down")]
+    ExtentOverflow {
+        /// Position of the coordinate, from 0.
+        coordinate: usize,
+    },
+    /// All points are the same point.
+    #[error("all {points} points are equal; there is no curve to fit")]
+    AllPointsEqual {
+        /// Number of points.
+        points: usize,
+    },
+    /// Neighbours that coincide, so that they would share one parameter.
+    #[error(
+        "point {second} repeats point {first} ({others} further repetitions); choose a policy for duplicates: drop or merge"
+    )]
+    RepeatedPoints {
+        /// Position of the first of the pair.
+        first: usize,
+        /// Position of its repetition.
+        second: usize,
+        /// How many more there are.
+        others: usize,
+    },
+    /// Neighbours so close, against the whole length, that doubles cannot hold two parameters.
+    #[error(
+        "points {first} and {second} lie too close together, against the length of the whole curve, to have distinct parameters; drop one of them, or use uniform parameters"
+    )]
+    ParametersCollide {
+        /// Position of the first of the pair.
+        first: usize,
+        /// Position of the second.
+        second: usize,
+    },
+    /// Given parameters that do not increase strictly.
+    #[error(
+        "parameter {value} of point {index} does not exceed its predecessor {previous}; parameters must increase strictly"
+    )]
+    ParametersNotIncreasing {
+        /// Position of the offending parameter.
+        index: usize,
+        /// Its value.
+        value: f64,
+        /// The value before.
+        previous: f64,
+    },
+    /// A number of parameters, knots or weights that does not fit the data.
+    #[error("{given} {what} given, {expected} expected: {why}")]
+    WrongCount {
+        /// What was counted.
+        what: &'static str,
+        /// How many were given.
+        given: usize,
+        /// How many are needed.
+        expected: usize,
+        /// The rule behind the number.
+        why: &'static str,
+    },
+    /// A value outside its range: a weight of 2.5, degree 0, a negative residual.
+    #[error("{what} is {value}; {rule}")]
+    OutOfRange {
+        /// The option or list entry, such as `iteration weight 7`.
+        what: String,
+        /// The value met.
+        value: f64,
+        /// What is allowed.
+        rule: &'static str,
+    },
+    /// Knots that fall, are not finite, or repeat more often than the degree allows.
+    #[error("knot {index} ({value}) {problem}")]
+    BadKnot {
+        /// Position in the knot vector.
+        index: usize,
+        /// Its value.
+        value: f64,
+        /// What is wrong with it.
+        problem: &'static str,
+    },
+    /// The knots leave a data point without its basis function
+    /// (the conditions of Schoenberg and Whitney, 1953).
+    #[error(
+        "the knots do not fit the parameters: basis function {point} vanishes at parameter {parameter} of point {point} (Schoenberg-Whitney condition); averaged knots always fit"
+    )]
+    SchoenbergWhitney {
+        /// Position of the point.
+        point: usize,
+        /// Its parameter.
+        parameter: f64,
+    },
+    /// A collocation matrix that is singular although every diagonal entry is positive.
+    #[error("the collocation matrix of {points} points is singular: {why}")]
+    Singular {
+        /// Number of points.
+        points: usize,
+        /// The cause, as far as it is known, and the remedy.
+        why: &'static str,
+    },
+    /// Choices that exclude each other.
+    #[error("{what} cannot be used with {with}: {why}")]
+    Incompatible {
+        /// The one choice.
+        what: &'static str,
+        /// The other.
+        with: &'static str,
+        /// The reason, and what to do.
+        why: &'static str,
+    },
+    /// A parameter outside the curve's domain.
+    #[error("parameter {parameter} lies outside the domain [{start}, {end}]")]
+    OutsideDomain {
+        /// The parameter asked for.
+        parameter: f64,
+        /// Start of the domain.
+        start: f64,
+        /// End of the domain.
+        end: f64,
+    },
+}
+
+impl Error {
+    /// The same error with positions of points looked up in `kept`: from points that are left to
+    /// the caller's numbering.
+    pub(crate) fn renumbered(self, kept: &[usize]) -> Self {
+        let old = |index: usize| kept.get(index).copied().unwrap_or(index);
+        match self {
+            Self::RepeatedPoints { first, second, others } => {
+                Self::RepeatedPoints { first: old(first), second: old(second), others }
+            }
+            Self::ParametersCollide { first, second } => {
+                Self::ParametersCollide { first: old(first), second: old(second) }
+            }
+            Self::ParametersNotIncreasing { index, value, previous } => {
+                Self::ParametersNotIncreasing { index: old(index), value, previous }
+            }
+            Self::SchoenbergWhitney { point, parameter } => {
+                Self::SchoenbergWhitney { point: old(point), parameter }
+            }
+            other => other,
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! Keeps the fits of chosen iterations while the caller's observer watches.
+
+use super::KeptFit;
+use super::curve::unscaled;
+use crate::Error;
+use crate::collocation::ControlLayout;
+use crate::iteration::{Flow, Observer, Outcome, Snapshot};
+use crate::points::{Points, PowerOfTwoScale};
+
+pub(super) struct Keeper<'a> {
+    wanted: Vec<usize>,
+    kept: Vec<(crate::iteration::HistoryEntry, Vec<f64>)>,
+    layout: ControlLayout,
+    dimension: usize,
+    observer: &'a mut dyn Observer,
+}
+
+impl<'a> Keeper<'a> {
+    pub(super) fn new(
+        wanted: &[usize],
+        layout: ControlLayout,
+        dimension: usize,
+        observer: &'a mut dyn Observer,
+    ) -> Self {
+        let mut wanted = wanted.to_vec();
+        wanted.sort_unstable();
+        wanted.dedup();
+        Self { wanted, kept: Vec::new(), layout, dimension, observer }
+    }
+
+    /// The fits kept, in the unit of the data; says which were never reached.
+    pub(super) fn finish(
+        self,
+        scale: PowerOfTwoScale,
+        outcome: &Outcome,
+        choices: &mut Vec<String>,
+    ) -> Result<Vec<KeptFit>, Error> {
+        let missing: Vec<String> = self
+            .wanted
+            .iter()
+            .filter(|&&k| k > outcome.iterations)
+            .map(ToString::to_string)
+            .collect();
+        if !missing.is_empty() {
+            choices.push(format!(
+                "kept fits: the run ended after {} iterations, so there is none of iteration {}",
+                outcome.iterations,
+                missing.join(", ")
+            ));
+        }
+        self.kept
+            .into_iter()
+            .map(|(mut entry, control)| {
+                entry.max_residual = scale.undo(entry.max_residual);
+                entry.rms_residual = scale.undo(entry.rms_residual);
+                let stored = self.layout.expand(control, self.dimension);
+                let control_points = unscaled(Points::new(self.dimension, stored)?, scale)?;
+                Ok(KeptFit { entry, control_points })
+            })
+            .collect()
+    }
+}
+
+impl Observer for Keeper<'_> {
+    fn observe(&mut self, snapshot: Snapshot<'_>) -> Flow {
+        if self.wanted.binary_search(&snapshot.entry.iteration).is_ok() {
+            self.kept.push((snapshot.entry, snapshot.control.to_vec()));
+        }
+        self.observer.observe(snapshot)
+    }
+}

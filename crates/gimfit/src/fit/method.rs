@@ -1,0 +1,134 @@
+//! From a named method to a rule, with what had to be found out on the way.
+
+use super::{IterationWeight, Method};
+use crate::Error;
+use crate::collocation::{
+    BandFactors, BandedCollocation, CollocationOperator, gauss_seidel_rate, smallest_eigenvalue,
+};
+use crate::iteration::UpdateRule;
+use crate::iteration::update::{
+    Chebyshev, GaussSeidel, Jacobi, PerPoint, Pia, Preconditioned, Sor, Staged, Weighted,
+};
+
+/// A rule ready to run.
+pub(super) struct ChosenRule<'a> {
+    pub(super) rule: Box<dyn UpdateRule + 'a>,
+    pub(super) name: &'static str,
+    pub(super) choices: Vec<String>,
+    pub(super) smallest_eigenvalue: Option<f64>,
+}
+
+/// Prepares the rule of a method. `gradual` steps of plain PIA come first where the method is left
+/// to us and fits of the way there are wanted.
+pub(super) fn choose<'a>(
+    method: Method,
+    weight: &IterationWeight,
+    operator: &'a BandedCollocation,
+    dimension: usize,
+    gradual: usize,
+) -> Result<ChosenRule<'a>, Error> {
+    check_weight(method, weight, operator.points())?;
+    let mut choices = Vec::new();
+    let mut eigenvalue = None;
+    let mut smallest = || -> Result<f64, Error> {
+        let bounds = smallest_eigenvalue(&BandFactors::new(operator)?);
+        eigenvalue = Some(bounds.estimate);
+        // The lower bound is safe; far off the estimate it would only be slow.
+        Ok(bounds.lower.max(0.5 * bounds.estimate))
+    };
+    let (name, rule): (_, Box<dyn UpdateRule + 'a>) = match method {
+        Method::Auto => {
+            let whole_band = Preconditioned::new(operator, None)?;
+            if gradual > 0 {
+                choices.push(format!(
+                    "method: plain PIA for {gradual} steps, because fits of the way are kept, then \
+                     preconditioned PIA"
+                ));
+                ("auto", Box::new(Staged::new(Pia, gradual, whole_band)))
+            } else {
+                choices.push(
+                    "method: preconditioned PIA with the whole band, which reaches rounding level \
+                     in a few steps on any spacing"
+                        .into(),
+                );
+                ("preconditioned", Box::new(whole_band))
+            }
+        }
+        Method::Pia => ("pia", Box::new(Pia)),
+        Method::Weighted => match weight {
+            IterationWeight::PerPoint(omega) => {
+                ("weighted", Box::new(PerPoint::new(omega.clone())))
+            }
+            IterationWeight::Same(omega) => ("weighted", Box::new(Weighted::new(*omega))),
+            IterationWeight::Auto => {
+                let omega = Weighted::best_for(smallest()?);
+                choices.push(format!("weight: {omega:.6}, best for the smallest eigenvalue"));
+                ("weighted", Box::new(Weighted::new(omega)))
+            }
+        },
+        Method::Jacobi => ("jacobi", Box::new(Jacobi::new(operator))),
+        Method::GaussSeidel => ("gauss-seidel", Box::new(GaussSeidel::new(operator))),
+        Method::Sor => {
+            let omega = match weight {
+                IterationWeight::Same(omega) => *omega,
+                _ => {
+                    let omega = Sor::best_for(gauss_seidel_rate(operator));
+                    choices.push(format!("weight: {omega:.6}, from the rate of Gauss-Seidel"));
+                    omega
+                }
+            };
+            ("sor", Box::new(Sor::new(operator, omega)))
+        }
+        Method::Chebyshev => {
+            let least = smallest()?;
+            choices.push(format!("interval of eigenvalues: [{least:.4e}, 1]"));
+            let length = operator.points() * dimension;
+            ("chebyshev", Box::new(Chebyshev::new(least, 1.0, length)))
+        }
+        Method::Preconditioned { half_bandwidth } => {
+            ("preconditioned", Box::new(Preconditioned::new(operator, half_bandwidth)?))
+        }
+    };
+    Ok(ChosenRule { rule, name, choices, smallest_eigenvalue: eigenvalue })
+}
+
+fn check_weight(method: Method, weight: &IterationWeight, points: usize) -> Result<(), Error> {
+    let (single, per_point) = match method {
+        Method::Weighted => (true, true),
+        Method::Sor => (true, false),
+        _ => (false, false),
+    };
+    let in_range = |omega: f64| omega > 0.0 && omega < 2.0;
+    let out_of_range = |what: String, value| {
+        Err(Error::OutOfRange {
+            what,
+            value,
+            rule: "weights must lie between 0 and 2, where the iteration converges",
+        })
+    };
+    match weight {
+        IterationWeight::Auto => Ok(()),
+        IterationWeight::Same(_) if !single => Err(Error::Incompatible {
+            what: "an iteration weight",
+            with: "this method",
+            why: "only weighted and sor have one",
+        }),
+        IterationWeight::Same(omega) if in_range(*omega) => Ok(()),
+        IterationWeight::Same(omega) => out_of_range("iteration weight".into(), *omega),
+        IterationWeight::PerPoint(_) if !per_point => Err(Error::Incompatible {
+            what: "a weight per point",
+            with: "this method",
+            why: "only weighted takes weights per point",
+        }),
+        IterationWeight::PerPoint(list) if list.len() != points => Err(Error::WrongCount {
+            what: "iteration weights",
+            given: list.len(),
+            expected: points,
+            why: "one per data point",
+        }),
+        IterationWeight::PerPoint(list) => match list.iter().position(|&omega| !in_range(omega)) {
+            Some(j) => out_of_range(format!("iteration weight {j}"), list[j]),
+            None => Ok(()),
+        },
+    }
+}

@@ -1,0 +1,88 @@
+//! What a caller chooses.
+
+use crate::knots::KnotPlacement;
+use crate::parameters::Parameterization;
+use crate::points::Duplicates;
+
+/// The rule that moves the control points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Method {
+    /// Reaches rounding level quickly on any spacing: [`Method::Preconditioned`] with the whole
+    /// band; after plain PIA for as many steps as there are fits to keep.
+    #[default]
+    Auto,
+    /// Plain PIA (Lin, Bao and Wang 2005).
+    Pia,
+    /// Weighted PIA (Lu 2010; per point: Chen, Wang and Jin 2012).
+    Weighted,
+    /// Jacobi-PIA (Liu and Deng 2015).
+    Jacobi,
+    /// Gauss-Seidel PIA (Wang, Li and Deng 2018).
+    GaussSeidel,
+    /// Successive over-relaxation.
+    Sor,
+    /// Chebyshev semi-iterative PIA (Liu, Han and Li 2017).
+    Chebyshev,
+    /// Preconditioned PIA (Liu and Liu 2020) with a half bandwidth, or the whole band.
+    Preconditioned {
+        /// Entries farther from the diagonal are added to it; `None` keeps all.
+        half_bandwidth: Option<usize>,
+    },
+}
+
+/// Weight of the difference vectors, for the methods that have one.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum IterationWeight {
+    /// The best one, from the spectrum.
+    #[default]
+    Auto,
+    /// The same for all points, in (0, 2).
+    Same(f64),
+    /// One per point, each in (0, 2); [`Method::Weighted`] only.
+    PerPoint(Vec<f64>),
+}
+
+/// What a caller chooses for [`fit_curve`](super::fit_curve); the defaults interpolate by a cubic.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CurveOptions {
+    /// Degree, from 1.
+    pub degree: usize,
+    /// Whether the curve returns smoothly to its first point, which may be repeated at the end or
+    /// not.
+    pub closed: bool,
+    /// How parameters are assigned; `None`: chord length, uniform for values of dimension 1.
+    pub parameterization: Option<Parameterization>,
+    /// How knots are placed; `None`: averaged, uniform for the chord-ratio parameterization.
+    pub knot_placement: Option<KnotPlacement>,
+    /// The rule that moves the control points.
+    pub method: Method,
+    /// Its weight.
+    pub weight: IterationWeight,
+    /// Most steps.
+    pub iterations: usize,
+    /// Largest residual to be reached, in the unit of the data. `None`: 1e-12 of the extent, or
+    /// what rounding of the coordinates allows if that is more. 0: run all `iterations`.
+    pub residual: Option<f64>,
+    /// What to do with repeated points.
+    pub duplicates: Duplicates,
+    /// Iterations whose fits are kept.
+    pub keep: Vec<usize>,
+}
+
+impl Default for CurveOptions {
+    fn default() -> Self {
+        Self {
+            degree: 3,
+            closed: false,
+            parameterization: None,
+            knot_placement: None,
+            method: Method::Auto,
+            weight: IterationWeight::Auto,
+            iterations: 1000,
+            residual: None,
+            duplicates: Duplicates::Error,
+            keep: Vec::new(),
+        }
+    }
+}

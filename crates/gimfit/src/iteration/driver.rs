@@ -1,0 +1,58 @@
+//! The loop: measure, judge, step.
+
+use super::stopping::StoppingRule;
+use super::{
+    Flow, HistoryEntry, IterationState, Observer, Snapshot, Stopping, Termination, Trace,
+    UpdateRule,
+};
+
+/// How a run ended; the control points are in the state.
+#[derive(Debug)]
+pub struct Outcome {
+    /// The named reason.
+    pub termination: Termination,
+    /// Steps run.
+    pub iterations: usize,
+    /// Residuals step by step.
+    pub history: Vec<HistoryEntry>,
+}
+
+/// Runs a rule on a state until the stopping settings or the observer end it.
+///
+/// A run that diverged or stalled leaves the control points of its smallest residual in the state:
+/// it is repeated from the start up to there, which costs nothing in all other cases.
+pub fn run(
+    state: &mut IterationState<'_>,
+    rule: &mut dyn UpdateRule,
+    stopping: Stopping,
+    observer: &mut dyn Observer,
+) -> Outcome {
+    let mut judge = StoppingRule::new(stopping);
+    let mut trace = Trace::with_room_for(stopping.max_iterations);
+    let termination = loop {
+        let entry = entry_of(state);
+        trace.push(entry);
+        let flow = observer.observe(Snapshot { entry, control: state.control() });
+        if let Some(reason) = judge.judge(entry, || state.rounding_level()) {
+            break reason;
+        }
+        if flow == Flow::Stop {
+            break Termination::Cancelled;
+        }
+        state.step(rule);
+    };
+    let iterations = state.iteration();
+    let best = judge.best_iteration();
+    let lost = matches!(termination, Termination::Diverged | Termination::Stalled);
+    if lost && best < iterations {
+        rule.reset();
+        state.restart();
+        (0..best).for_each(|_| state.step(rule));
+    }
+    Outcome { termination, iterations, history: trace.into_entries() }
+}
+
+fn entry_of(state: &IterationState<'_>) -> HistoryEntry {
+    let norms = state.norms();
+    HistoryEntry { iteration: state.iteration(), max_residual: norms.max, rms_residual: norms.rms }
+}

@@ -1,0 +1,111 @@
+//! What an iteration carries from step to step; a caller may drive it by hand.
+
+use super::UpdateRule;
+use crate::collocation::{CollocationOperator, ResidualNorms};
+use crate::memory;
+
+/// Rounding errors of a row's product, in units of the largest coordinate.
+pub const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+/// Control points on their way to the data. After [`IterationState::begin`] and after every
+/// [`IterationState::step`] the norms belong to the control points held.
+#[derive(Debug)]
+pub struct IterationState<'a> {
+    operator: &'a dyn CollocationOperator,
+    data: &'a [f64],
+    dimension: usize,
+    control: Vec<f64>,
+    /// Difference vectors between steps; a rule turns them into adjusting vectors in place.
+    vectors: Vec<f64>,
+    norms: ResidualNorms,
+    iteration: usize,
+}
+
+impl<'a> IterationState<'a> {
+    /// Starts from the data themselves, `P^0 = Q`: a square iteration. `data` has shape
+    /// (points, dimension).
+    #[must_use]
+    pub fn begin(operator: &'a dyn CollocationOperator, data: &'a [f64], dimension: usize) -> Self {
+        let mut state = Self {
+            operator,
+            data,
+            dimension,
+            control: memory::copy_of(data),
+            vectors: memory::zeros(data.len()),
+            norms: ResidualNorms::default(),
+            iteration: 0,
+        };
+        state.measure();
+        state
+    }
+
+    /// Goes back to the start, reusing all memory.
+    pub fn restart(&mut self) {
+        self.control.copy_from_slice(self.data);
+        self.iteration = 0;
+        self.measure();
+    }
+
+    /// One step: adjusting vectors from the rule, added to the control points; then the new
+    /// difference vectors. Allocates nothing.
+    pub fn step(&mut self, rule: &mut dyn UpdateRule) {
+        rule.adjust(self.iteration, &mut self.vectors, self.dimension);
+        for (p, delta) in self.control.iter_mut().zip(&self.vectors) {
+            *p += delta;
+        }
+        self.iteration += 1;
+        self.measure();
+    }
+
+    fn measure(&mut self) {
+        self.norms = self.operator.difference_vectors(
+            self.data,
+            &self.control,
+            self.dimension,
+            &mut self.vectors,
+        );
+    }
+
+    /// Residual that rounding alone may leave: 8 units in the last place of the largest coordinate
+    /// of a control point.
+    #[must_use]
+    pub fn rounding_level(&self) -> f64 {
+        ROUNDING * self.control.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
+    }
+
+    /// Steps taken.
+    #[must_use]
+    pub fn iteration(&self) -> usize {
+        self.iteration
+    }
+
+    /// Norms of the difference vectors of the control points held.
+    #[must_use]
+    pub fn norms(&self) -> ResidualNorms {
+        self.norms
+    }
+
+    /// The control points held, shape (points, dimension).
+    #[must_use]
+    pub fn control(&self) -> &[f64] {
+        &self.control
+    }
+
+    /// Their difference vectors, shape (points, dimension).
+    #[must_use]
+    pub fn difference_vectors(&self) -> &[f64] {
+        &self.vectors
+    }
+
+    /// Coordinates per point.
+    #[must_use]
+    pub fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    /// Control points and difference vectors, by value.
+    #[must_use]
+    pub fn into_parts(self) -> (Vec<f64>, Vec<f64>) {
+        (self.control, self.vectors)
+    }
+}

@@ -1,0 +1,36 @@
+//! Preconditioned PIA (Liu and Liu 2020): `P <- P + M^-1 (Q - A P)`, where M is the band of A
+//! within a half bandwidth q, what lies beyond added to the diagonal.
+//!
+//! With q = 0, M is the identity and the rule is PIA. With the whole band M is A itself: a step is
+//! a forward and a backward sweep over the control points, the first reaches the interpolant to
+//! rounding whatever the spacing of the data, and further ones refine it.
+
+use super::UpdateRule;
+use crate::Error;
+use crate::collocation::{BandFactors, BandedCollocation};
+
+/// Progressive-iterative approximation preconditioned by a band.
+#[derive(Debug, Clone)]
+pub struct Preconditioned {
+    factors: BandFactors,
+}
+
+impl Preconditioned {
+    /// Factors the whole band, or that within a half bandwidth.
+    ///
+    /// # Errors
+    /// [`Error::Singular`].
+    pub fn new(operator: &BandedCollocation, half_bandwidth: Option<usize>) -> Result<Self, Error> {
+        let factors = match half_bandwidth {
+            Some(q) => BandFactors::compensated(operator, q)?,
+            None => BandFactors::new(operator)?,
+        };
+        Ok(Self { factors })
+    }
+}
+
+impl UpdateRule for Preconditioned {
+    fn adjust(&mut self, _: usize, vectors: &mut [f64], dimension: usize) {
+        self.factors.solve_in_place(vectors, dimension);
+    }
+}

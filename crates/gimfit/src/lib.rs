@@ -1,0 +1,64 @@
+//! gimfit fits B-spline curves to points by **geometric iterative methods**: progressive-iterative
+//! approximation (PIA) and its relatives. Control points start at the data; each step moves every
+//! control point by the difference between the data and the current curve; the sequence converges
+//! to the interpolating curve, and every member of it is a legal B-spline.
+//!
+//! ```
+//! use gimfit::{CurveOptions, Method, fit_curve};
+//!
+//! let points = [[0.0, 0.0], [1.0, 1.5], [2.5, 2.0], [4.0, 0.5], [5.0, 1.0]];
+//! let options = CurveOptions { method: Method::Pia, keep: vec![0, 2, 4], ..Default::default() };
+//! let fit = fit_curve(&points, &options)?;
+//! assert!(fit.report.converged() && fit.report.max_residual < 1e-11);
+//! assert_eq!(fit.sequence.len(), 3);
+//! # Ok::<(), gimfit::Error>(())
+//! ```
+//!
+//! The rooms, in the order the data pass them; each imports only rooms above it:
+//!
+//! * [`error`]: what can be wrong with a request
+//! * [`points`]: what we are given
+//! * [`parameters`]: where each data point sits on the curve
+//! * [`knots`]: knot vectors and their placement
+//! * `basis`: blending functions (not public yet)
+//! * [`geometry`]: curves: evaluate, derive
+//! * [`collocation`]: rows of few weights, built once and applied many times; their spectrum
+//! * [`projection`]: foot points
+//! * [`iteration`]: the one loop and the rules that run through it
+//! * [`report`]: what happened
+//! * [`fit`]: the recipes
+//!
+//! The library opens no file, prints nothing and reads no clock.
+
+pub mod error;
+mod memory;
+pub mod points;
+
+pub mod parameters;
+
+pub mod knots;
+
+mod basis;
+
+pub mod geometry;
+
+pub mod collocation;
+
+pub mod projection;
+
+pub mod iteration;
+
+pub mod report;
+
+pub mod fit;
+
+pub use error::Error;
+pub use fit::{
+    CurveFit, CurveOptions, IterationWeight, KeptFit, Method, fit_curve, fit_curve_observed,
+};
+pub use geometry::Curve;
+pub use iteration::{HistoryEntry, Termination};
+pub use knots::{KnotPlacement, KnotVector};
+pub use parameters::Parameterization;
+pub use points::{Duplicates, Points, PointsView};
+pub use report::CurveReport;
