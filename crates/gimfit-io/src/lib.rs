@@ -1,4 +1,8 @@
-//! Readers and writers for gimfit, one file per format.
+//! Readers and writers for gimfit, one file per format: points in; documents, tables and figures
+//! out.
 
+pub mod document;
 pub mod figure;
 pub mod points;
+pub mod table;
+pub mod write;

@@ -23,10 +23,7 @@ pub(super) fn stride_for(count: usize, most: usize) -> usize {
 /// Every so many-th of `points`, at most `most`.
 pub(super) fn every_nth(points: &[Px], most: usize) -> Thinned {
     let stride = stride_for(points.len(), most);
-    Thinned {
-        points: points.iter().copied().step_by(stride).collect(),
-        stride,
-    }
+    Thinned { points: points.iter().copied().step_by(stride).collect(), stride }
 }
 
 /// A polyline that looks the same, with at most about `most` points.
@@ -44,6 +41,13 @@ pub(super) fn thin_polyline(points: &[Px], most: usize) -> Thinned {
     let columns = extremes_of_columns(points, column_width(points, most));
     if columns.len() <= most {
         return whole(columns);
+    }
+    // About a pixel is still hardly seen, and better than a new, false noise.
+    for tolerance in [0.8, 1.5] {
+        let straightened = drop_straight(points, tolerance);
+        if straightened.len() <= most {
+            return whole(straightened);
+        }
     }
     let mut thinned = every_nth(points, most);
     thinned.points.extend(points.last());
@@ -98,14 +102,7 @@ struct Sleeve {
 
 impl Sleeve {
     fn from(start: Px) -> Self {
-        Self {
-            start,
-            end: start,
-            reach: 0.0,
-            heading: f64::NAN,
-            low: 0.0,
-            high: 0.0,
-        }
+        Self { start, end: start, reach: 0.0, heading: f64::NAN, low: 0.0, high: 0.0 }
     }
 
     /// Lets the line end in `p`, unless it would leave a vertex behind.
@@ -152,11 +149,7 @@ fn column_width(points: &[Px], most: usize) -> f64 {
 /// column of `width`: the extremes of a graph survive however dense it is.
 fn extremes_of_columns(points: &[Px], width: f64) -> Vec<Px> {
     let column = |p: &Px| {
-        if p.0.is_nan() || p.1.is_nan() {
-            i64::MIN
-        } else {
-            (p.0 / width).floor() as i64
-        }
+        if p.0.is_nan() || p.1.is_nan() { i64::MIN } else { (p.0 / width).floor() as i64 }
     };
     let mut kept = Vec::new();
     for run in points.chunk_by(|a, b| column(a) == column(b)) {
@@ -200,12 +193,7 @@ pub(super) fn bins(values: &[f64], most: usize) -> Vec<Bin> {
             let numbers = || chunk.iter().copied().filter(|v| !v.is_nan());
             let low = numbers().reduce(f64::min)?;
             let high = numbers().reduce(f64::max)?;
-            Some(Bin {
-                first: k * count,
-                count: chunk.len(),
-                low,
-                high,
-            })
+            Some(Bin { first: k * count, count: chunk.len(), low, high })
         })
         .collect()
 }
@@ -226,9 +214,8 @@ mod tests {
 
     #[test]
     fn a_dense_graph_keeps_its_extremes() {
-        let mut graph: Vec<Px> = (0..1_000_000)
-            .map(|i| (f64::from(i) * 7e-4, f64::from(i % 97)))
-            .collect();
+        let mut graph: Vec<Px> =
+            (0..1_000_000).map(|i| (f64::from(i) * 7e-4, f64::from(i % 97))).collect();
         graph[567_890].1 = 400.0;
         graph[123_456].1 = -300.0;
         let thin = thin_polyline(&graph, MOST_POINTS);

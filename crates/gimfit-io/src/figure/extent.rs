@@ -19,10 +19,7 @@ pub(super) fn of_coordinates(
     notes: &mut Notes,
 ) -> Vec<Option<Interval>> {
     let around = |rows: Rows<'_>, k: usize| Interval::around(rows.iter().map(|row| row[k]));
-    let data: Vec<_> = coordinates
-        .clone()
-        .map(|k| around(figure.data(), k))
-        .collect();
+    let data: Vec<_> = coordinates.clone().map(|k| around(figure.data(), k)).collect();
     let allowance = data.iter().flatten().map(Interval::span).fold(0.0, f64::max);
     let mut strayed = false;
     let made = coordinates
@@ -72,11 +69,8 @@ fn beziers<'a>(figure: &'a CurveFigure<'_>, k: usize) -> impl Iterator<Item = f6
 
 /// The interval of all parameters in the figure.
 pub(super) fn of_parameters(figure: &CurveFigure<'_>) -> Option<Interval> {
-    let all = [
-        figure.parameters,
-        figure.curve_samples.parameters,
-        figure.abscissae_of_control_points,
-    ];
+    let all =
+        [figure.parameters, figure.curve_samples.parameters, figure.abscissae_of_control_points];
     Interval::around(all.into_iter().flatten().copied().filter_map(drawable))
 }
 

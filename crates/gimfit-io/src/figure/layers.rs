@@ -34,13 +34,11 @@ pub(super) fn earlier_drawn(count: usize) -> Vec<usize> {
     if count <= MOST_EARLIER {
         return (0..count).collect();
     }
-    (0..MOST_EARLIER)
-        .map(|k| k * (count - 1) / (MOST_EARLIER - 1))
-        .collect()
+    (0..MOST_EARLIER).map(|k| k * (count - 1) / (MOST_EARLIER - 1)).collect()
 }
 
 /// Entries of the legend, in the order in which the eye looks for them.
-pub(super) fn legend(figure: &CurveFigure<'_>) -> Vec<Entry> {
+pub(super) fn legend(figure: &CurveFigure<'_>, looks: Looks) -> Vec<Entry> {
     let (points, controls) = (figure.data().len(), figure.control().len());
     let mut entries = vec![
         Entry {
@@ -48,7 +46,7 @@ pub(super) fn legend(figure: &CurveFigure<'_>) -> Vec<Entry> {
             name: "fitted curve".to_owned(),
         },
         Entry {
-            sample: Sample::Dot(data_colour(points).to_owned(), dot_radius(points).max(1.8)),
+            sample: Sample::Dot(looks.data_colour().to_owned(), looks.dot_radius.max(1.8)),
             name: format!("data points ({})", text::grouped(points)),
         },
         Entry {
@@ -66,59 +64,87 @@ pub(super) fn legend(figure: &CurveFigure<'_>) -> Vec<Entry> {
     entries
 }
 
-/// Data points so many that they would hide the curve lie under it, paler.
-fn many(points: usize) -> bool {
-    points > 600
+/// How marks look, given how close together they lie.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Looks {
+    /// Whether data points would hide the curve; they then lie under it.
+    crowded: bool,
+    dot_radius: f64,
+    /// Side of the squares at control points; none if they would merge.
+    square_side: Option<f64>,
 }
 
-fn data_colour(points: usize) -> &'static str {
-    if many(points) {
-        style::DATA_MANY
-    } else {
-        style::DATA
+impl Default for Looks {
+    fn default() -> Self {
+        Self { crowded: false, dot_radius: 2.4, square_side: Some(6.0) }
     }
 }
 
-fn dot_radius(points: usize) -> f64 {
-    match points {
-        0..=60 => 2.5,
-        61..=250 => 1.8,
-        251..=600 => 1.4,
-        _ => 1.8,
+impl Looks {
+    fn of(data: &[Px], control: &[Px]) -> Self {
+        let (dots, squares) = (typical_gap(data), typical_gap(control));
+        // Where there are many, they are not each looked at.
+        let largest_dot = if data.len() > 60 { 1.8 } else { 2.5 };
+        let largest_square = if control.len() > 60 { 4.6 } else { 6.0 };
+        let crowded = data.len() > 1000 || (data.len() > 40 && dots < 4.0);
+        Self {
+            crowded,
+            dot_radius: if crowded { 2.2 } else { (0.14 * dots).clamp(1.3, largest_dot) },
+            square_side: (control.len() <= 20 || (squares > 3.0 && control.len() <= 2000))
+                .then(|| (0.36 * squares).clamp(2.6, largest_square)),
+        }
+    }
+
+    fn data_colour(&self) -> &'static str {
+        if self.crowded { style::DATA_MANY } else { style::DATA }
     }
 }
 
-fn square_side(controls: usize) -> f64 {
-    match controls {
-        0..=60 => 6.0,
-        61..=150 => 4.6,
-        151..=500 => 3.4,
-        _ => 2.4,
+/// The median distance between neighbours: a few long jumps do not count.
+fn typical_gap(points: &[Px]) -> f64 {
+    let mut gaps: Vec<f64> = points
+        .windows(2)
+        .map(|pair| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1))
+        .filter(|gap| gap.is_finite())
+        .collect();
+    if gaps.is_empty() {
+        return 100.0;
     }
+    let middle = gaps.len() / 2;
+    *gaps.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
 impl Layers {
     /// Draws all layers into `area`. `share` is the part of the picture's
     /// budget of points that this panel may use.
-    pub(super) fn draw(&self, svg: &mut Svg, area: Rect, id: &str, share: f64, notes: &mut Notes) {
+    pub(super) fn draw(
+        &self,
+        svg: &mut Svg,
+        area: Rect,
+        id: &str,
+        share: f64,
+        notes: &mut Notes,
+    ) -> Looks {
+        let looks = Looks::of(&self.data, &self.control);
         let most = ((MOST_POINTS as f64 * share) as usize).max(64);
         plot::open_clipped(svg, area, 0.0, id);
-        if many(self.data.len()) {
-            self.draw_data(svg, most, notes);
+        if looks.crowded {
+            self.draw_data(svg, most, looks, notes);
         }
         let count = self.earlier.len();
         for (k, curve) in self.earlier.iter().enumerate() {
             draw_polyline(svg, curve, most, &style::ramp(k, count), 1.1);
         }
-        self.draw_control(svg, most, notes);
-        self.draw_curve(svg, most, notes);
-        if !many(self.data.len()) {
-            self.draw_data(svg, most, notes);
+        self.draw_control(svg, most, looks, notes);
+        self.draw_curve(svg, most, looks, notes);
+        if !looks.crowded {
+            self.draw_data(svg, most, looks, notes);
         }
         svg.close("g");
+        looks
     }
 
-    fn draw_data(&self, svg: &mut Svg, most: usize, notes: &mut Notes) {
+    fn draw_data(&self, svg: &mut Svg, most: usize, looks: Looks, notes: &mut Notes) {
         let thinned = every_nth(&self.data, most);
         notes.stride("data point", thinned.stride);
         let mut path = Path::default();
@@ -131,23 +157,32 @@ impl Layers {
         svg.tag("path")
             .attribute("d", path.data())
             .attribute("fill", "none")
-            .attribute("stroke", data_colour(self.data.len()))
-            .number("stroke-width", 2.0 * dot_radius(self.data.len()))
+            .attribute("stroke", looks.data_colour())
+            .number("stroke-width", 2.0 * looks.dot_radius)
             .attribute("stroke-linecap", "round")
             .end();
     }
 
-    fn draw_control(&self, svg: &mut Svg, most: usize, notes: &mut Notes) {
+    fn draw_control(&self, svg: &mut Svg, most: usize, looks: Looks, notes: &mut Notes) {
         let mut polygon = self.control.clone();
         if self.closed {
             polygon.extend(self.control.first());
         }
+        let Some(side) = looks.square_side else {
+            // A dense polygon is a band; pale, it lets the curve be seen.
+            svg.tag("g").number("opacity", 0.4).open();
+            let stride = draw_polyline(svg, &polygon, most, style::CONTROL, 1.1);
+            svg.close("g");
+            notes.stride("control point", stride);
+            notes.add("control points too close together to mark each".to_owned());
+            return;
+        };
         draw_polyline(svg, &polygon, most, style::CONTROL, 0.8);
         let squares = every_nth(&self.control, most);
         notes.stride("control point", squares.stride);
         let mut path = Path::default();
         for p in squares.points.iter().filter(|p| shown(p)) {
-            path.square(*p, square_side(self.control.len()));
+            path.square(*p, side);
         }
         if path.is_empty() {
             return;
@@ -160,8 +195,8 @@ impl Layers {
             .end();
     }
 
-    fn draw_curve(&self, svg: &mut Svg, most: usize, notes: &mut Notes) {
-        let width = if many(self.data.len()) { 1.4 } else { 1.9 };
+    fn draw_curve(&self, svg: &mut Svg, most: usize, looks: Looks, notes: &mut Notes) {
+        let width = if looks.crowded { 1.5 } else { 1.9 };
         if !self.pieces.is_empty() && self.pieces.len() <= most {
             let path = path_of_pieces(&self.pieces);
             stroke(svg, &path, style::CURVE, width);
@@ -172,11 +207,8 @@ impl Layers {
             .iter()
             .map(|piece| piece[0])
             .chain(self.pieces.last().map(|piece| piece[3]));
-        let samples: Vec<Px> = if self.curve.is_empty() {
-            ends.collect()
-        } else {
-            self.curve.clone()
-        };
+        let samples: Vec<Px> =
+            if self.curve.is_empty() { ends.collect() } else { self.curve.clone() };
         let stride = draw_polyline(svg, &samples, most, style::CURVE, width);
         notes.stride("sample of the curve", stride);
     }
@@ -248,4 +280,3 @@ pub(super) fn note_earlier(count: usize, notes: &mut Notes) {
         notes.add(format!("{MOST_EARLIER} of {count} kept iterations drawn"));
     }
 }
-

@@ -1,6 +1,7 @@
 //! Where the parts of a figure go, and the figure as a whole.
 
-use super::legend::{self, Entry};
+use super::layers::Looks;
+use super::legend;
 use super::notes::Notes;
 use super::plot::Rect;
 use super::scale::Interval;
@@ -33,7 +34,7 @@ const STACKED_HEIGHT: f64 = 92.0;
 /// What the main panel shows.
 enum Main {
     Plane(Option<[Interval; 2]>),
-    Space,
+    Space(Option<panel_space::Scene>),
     Coordinates,
 }
 
@@ -42,7 +43,6 @@ struct Layout {
     main: Rect,
     error: Rect,
     history: Rect,
-    legend: Vec<Vec<Entry>>,
     width: f64,
     bottom: f64,
 }
@@ -52,7 +52,7 @@ pub(super) fn curve_figure(figure: &CurveFigure<'_>) -> String {
     let mut notes = Notes::default();
     let main = match figure.dimension {
         2 => Main::Plane(panel_shape::intervals(figure, &mut notes)),
-        3 => Main::Space,
+        3 => Main::Space(panel_space::Scene::of(figure, &mut notes)),
         _ => Main::Coordinates,
     };
     layers::note_earlier(figure.sequence.len(), &mut notes);
@@ -62,23 +62,20 @@ pub(super) fn curve_figure(figure: &CurveFigure<'_>) -> String {
     } else {
         2.0 * (MARGIN + AXIS_LEFT) + main_width + MARGIN + SIDE_WIDTH
     };
-    let caption = text::wrap(
-        figure.caption,
-        style::CAPTION_SIZE,
-        width - 2.0 * MARGIN,
-        3,
-    );
+    let caption = text::wrap(figure.caption, style::CAPTION_SIZE, width - 2.0 * MARGIN, 3);
     let top = MARGIN + 22.0 + 17.0 * caption.len() as f64 + 18.0;
-    let legend = legend::rows(layers::legend(figure), main_width);
-    let layout = place(main_width, main_height, under, top, legend, width);
+    // Where the marks turn out smaller, the legend takes up no less room.
+    let rows = |looks| legend::rows(layers::legend(figure, looks), main_width);
+    let legend_rows = rows(Looks::default()).len();
+    let layout = place(main_width, main_height, under, top, legend_rows, width);
 
     let mut svg = Svg::default();
-    match main {
+    let looks = match main {
         Main::Plane(shown) => panel_shape::draw(&mut svg, layout.main, figure, shown, &mut notes),
-        Main::Space => panel_space::draw(&mut svg, layout.main, figure, &mut notes),
+        Main::Space(scene) => panel_space::draw(&mut svg, layout.main, figure, scene, &mut notes),
         Main::Coordinates => panel_coordinates::draw(&mut svg, layout.main, figure, &mut notes),
-    }
-    legend::draw(&mut svg, layout.main, &layout.legend);
+    };
+    legend::draw(&mut svg, layout.main, &rows(looks));
     panel_error::draw(&mut svg, layout.error, figure, &mut notes);
     panel_history::draw(&mut svg, layout.history, figure, &mut notes);
     let body = svg.finish();
@@ -91,18 +88,24 @@ fn main_size(main: &Main, dimension: usize) -> (f64, f64, bool) {
         Main::Plane(Some(shown)) => {
             let aspect = panel_shape::aspect(shown);
             if aspect > WIDE_ASPECT {
-                // Some air above and below, at the same scale as across.
-                let height = WHOLE_WIDTH / aspect * 1.1 + 50.0;
-                let height = height.clamp(WIDE_HEIGHT.0, WIDE_HEIGHT.1);
+                let inset = 2.0 * panel_shape::INSET;
+                let height = (WHOLE_WIDTH - inset) / aspect + inset;
+                let height = height.clamp(WIDE_HEIGHT.0, WIDE_HEIGHT.1).round();
                 (WHOLE_WIDTH, height, true)
             } else {
-                let width = (aspect * MAIN_HEIGHT).clamp(MAIN_WIDTH.0, MAIN_WIDTH.1);
+                let width = (aspect * MAIN_HEIGHT).clamp(MAIN_WIDTH.0, MAIN_WIDTH.1).round();
                 (width, MAIN_HEIGHT, false)
             }
         }
         Main::Coordinates => {
             let count = panel_coordinates::drawn(dimension) as f64;
             (MAIN_WIDTH.1, MAIN_HEIGHT.max(STACKED_HEIGHT * count), false)
+        }
+        Main::Space(Some(scene)) => {
+            let width = scene.width_for(MAIN_HEIGHT);
+            // NaN-proof: a clamp would pass it on.
+            let width = width.max(MAIN_WIDTH.0).min(MAIN_WIDTH.1).round();
+            (width, MAIN_HEIGHT, false)
         }
         _ => (MAIN_WIDTH.1, MAIN_HEIGHT, false),
     }
@@ -113,12 +116,12 @@ fn place(
     main_height: f64,
     under: bool,
     top: f64,
-    legend: Vec<Vec<Entry>>,
+    legend_rows: usize,
     width: f64,
 ) -> Layout {
     let main = Rect {
         x: MARGIN + AXIS_LEFT,
-        y: top + 6.0 + legend::ROW_HEIGHT * legend.len() as f64,
+        y: top + 6.0 + legend::ROW_HEIGHT * legend_rows as f64,
         width: main_width,
         height: main_height,
     };
@@ -130,33 +133,16 @@ fn place(
             width: half,
             height: UNDER_HEIGHT,
         };
-        let history = Rect {
-            x: main.right() - half,
-            ..error
-        };
+        let history = Rect { x: main.right() - half, ..error };
         (error, history)
     } else {
         let height = (0.5 * (main_height - AXIS_BELOW - HEADING)).min(300.0);
-        let error = Rect {
-            x: main.right() + MARGIN + AXIS_LEFT,
-            y: main.y,
-            width: SIDE_WIDTH,
-            height,
-        };
-        let history = Rect {
-            y: error.bottom() + AXIS_BELOW + HEADING,
-            ..error
-        };
+        let error =
+            Rect { x: main.right() + MARGIN + AXIS_LEFT, y: main.y, width: SIDE_WIDTH, height };
+        let history = Rect { y: error.bottom() + AXIS_BELOW + HEADING, ..error };
         (error, history)
     };
-    Layout {
-        main,
-        error,
-        history,
-        legend,
-        width,
-        bottom: main.bottom().max(history.bottom()) + AXIS_BELOW,
-    }
+    Layout { main, error, history, width, bottom: main.bottom().max(history.bottom()) + AXIS_BELOW }
 }
 
 /// The document around `body`: its size, background, title, caption, notes.
@@ -169,7 +155,7 @@ fn whole(
 ) -> String {
     let room = layout.width - 2.0 * MARGIN;
     let remarks = text::wrap(&notes.sentence(), style::NOTE_SIZE, room, 4);
-    let height = (layout.bottom + 14.0 * remarks.len() as f64 + 0.6 * MARGIN).ceil();
+    let height = (layout.bottom + 14.0 * remarks.len() as f64 + 0.7 * MARGIN).ceil();
     let mut svg = Svg::default();
     svg.tag("svg")
         .attribute("xmlns", "http://www.w3.org/2000/svg")
@@ -197,7 +183,7 @@ fn whole(
     out.push_str(body);
     let mut svg = Svg::default();
     for (k, line) in remarks.iter().enumerate() {
-        let at = (MARGIN, layout.bottom + 14.0 * (k as f64 + 0.6));
+        let at = (MARGIN, layout.bottom + 14.0 * (k as f64 + 1.0));
         svg.label(at, style::NOTE_SIZE, style::INK_SOFT, "start", line);
     }
     svg.close("svg");

@@ -11,6 +11,8 @@ pub(super) enum Sample {
     Line(String, f64),
     /// A dashed line of a colour and a width.
     Dashes(String, f64),
+    /// A dotted line of a colour and a width.
+    Dots(String, f64),
     /// A filled dot of a colour and a radius.
     Dot(String, f64),
     /// A thin line with a hollow square.
@@ -25,7 +27,7 @@ pub(super) struct Entry {
 }
 
 const SAMPLE_WIDTH: f64 = 24.0;
-const GAP: f64 = 20.0;
+const GAP: f64 = 16.0;
 pub(super) const ROW_HEIGHT: f64 = 19.0;
 
 fn entry_width(entry: &Entry) -> f64 {
@@ -76,13 +78,7 @@ fn draw_row(svg: &mut Svg, mut x: f64, y: f64, row: &[Entry]) {
         let wide = entry_width(entry);
         draw_sample(svg, x, y, &entry.sample);
         let text_at = x + wide - text::width(&entry.name, style::LABEL_SIZE);
-        svg.label(
-            (text_at, y + 4.0),
-            style::LABEL_SIZE,
-            style::INK,
-            "start",
-            &entry.name,
-        );
+        svg.label((text_at, y + 4.0), style::LABEL_SIZE, style::INK, "start", &entry.name);
         x += wide + GAP;
     }
 }
@@ -91,13 +87,8 @@ fn draw_sample(svg: &mut Svg, x: f64, y: f64, sample: &Sample) {
     let end = x + SAMPLE_WIDTH;
     match sample {
         Sample::Line(colour, width) => svg.line((x, y), (end, y), colour, *width),
-        Sample::Dashes(colour, width) => svg
-            .tag("path")
-            .attribute("d", &format!("M{x:.2} {y:.2}H{end:.2}"))
-            .attribute("stroke", colour)
-            .number("stroke-width", *width)
-            .attribute("stroke-dasharray", "5 3")
-            .end(),
+        Sample::Dashes(colour, width) => broken_line(svg, x, y, colour, *width, "5 3"),
+        Sample::Dots(colour, width) => broken_line(svg, x, y, colour, *width, "2 3"),
         Sample::Dot(colour, radius) => svg
             .tag("circle")
             .number("cx", x + 4.5)
@@ -116,4 +107,14 @@ fn draw_sample(svg: &mut Svg, x: f64, y: f64, sample: &Sample) {
                 .end();
         }
     }
+}
+
+fn broken_line(svg: &mut Svg, x: f64, y: f64, colour: &str, width: f64, pattern: &str) {
+    let end = x + SAMPLE_WIDTH;
+    svg.tag("path")
+        .attribute("d", &format!("M{x:.2} {y:.2}H{end:.2}"))
+        .attribute("stroke", colour)
+        .number("stroke-width", width)
+        .attribute("stroke-dasharray", pattern)
+        .end();
 }

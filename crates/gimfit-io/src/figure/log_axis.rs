@@ -33,12 +33,7 @@ impl LogScale {
             bottom -= 1;
             top = bottom + 2;
         }
-        Some(Self {
-            bottom: bottom.max(top - MOST_DECADES),
-            top,
-            start,
-            end,
-        })
+        Some(Self { bottom: bottom.max(top - MOST_DECADES), top, start, end })
     }
 
     /// The same scale, lowered so that it reaches `value`, provided that this
@@ -61,10 +56,7 @@ impl LogScale {
         let exponent = if value > 0.0 { value.log10() } else { -1.0e6 };
         let t = (exponent - f64::from(self.bottom)) / f64::from(self.top - self.bottom);
         let below = t < -1.0e-9;
-        (
-            self.start + t.clamp(0.0, 1.0) * (self.end - self.start),
-            below,
-        )
+        (self.start + t.clamp(0.0, 1.0) * (self.end - self.start), below)
     }
 
     /// Whether `value` lies between the ends of the axis.

@@ -157,7 +157,7 @@ impl<'a> CurveFigure<'a> {
     }
 }
 
-/// Writes `content` in the middle of an otherwise empty `area`.
+/// Writes `content` in the middle of an `area` that shows nothing else.
 fn message(svg: &mut Svg, area: Rect, content: &str) {
     svg.tag("rect")
         .number("x", area.x)
@@ -168,5 +168,13 @@ fn message(svg: &mut Svg, area: Rect, content: &str) {
         .attribute("stroke", style::FRAME)
         .end();
     let middle = (area.x + 0.5 * area.width, area.y + 0.5 * area.height);
+    let width = text::width(content, style::CAPTION_SIZE) + 16.0;
+    svg.tag("rect")
+        .number("x", middle.0 - 0.5 * width)
+        .number("y", middle.1 - 16.0)
+        .number("width", width)
+        .number("height", 24.0)
+        .attribute("fill", style::BACKGROUND)
+        .end();
     svg.label(middle, style::CAPTION_SIZE, style::INK_SOFT, "middle", content);
 }

@@ -1,5 +1,6 @@
 //! Remarks at the foot of a figure on what it leaves out.
 
+use super::plot::Axis;
 use super::text;
 
 /// Remarks in the order in which they arose, each once.
@@ -20,6 +21,18 @@ impl Notes {
         if stride > 1 {
             self.add(format!("every {} {name} drawn", text::ordinal(stride)));
         }
+    }
+
+    /// Explains offsets, if one of `axes` has one.
+    pub(super) fn offset(&mut self, axes: &[&Axis]) {
+        if axes.iter().any(|axis| axis.has_offset) {
+            self.offset_of_labels();
+        }
+    }
+
+    /// Explains what stands in brackets behind the name of an axis.
+    pub(super) fn offset_of_labels(&mut self) {
+        self.add("in brackets behind the name of an axis: what its labels are multiplied by, and what is added then".to_owned());
     }
 
     /// All remarks as one sentence; empty without any.

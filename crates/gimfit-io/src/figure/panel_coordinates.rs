@@ -2,7 +2,7 @@
 //! over the parameter, one panel above the other.
 
 use super::extent;
-use super::layers::{self, Layers};
+use super::layers::{self, Layers, Looks};
 use super::notes::Notes;
 use super::plot::{self, Axis, Rect};
 use super::rows::Rows;
@@ -23,11 +23,16 @@ pub(super) fn drawn(dimension: usize) -> usize {
 }
 
 /// Draws all panels into `area`.
-pub(super) fn draw(svg: &mut Svg, area: Rect, figure: &CurveFigure<'_>, notes: &mut Notes) {
+pub(super) fn draw(
+    svg: &mut Svg,
+    area: Rect,
+    figure: &CurveFigure<'_>,
+    notes: &mut Notes,
+) -> Looks {
     let count = drawn(figure.dimension);
     let Some(parameters) = extent::of_parameters(figure).filter(|_| count > 0) else {
         message(svg, area, "no points to draw");
-        return;
+        return Looks::default();
     };
     if count < figure.dimension {
         notes.add(format!("{count} of {} coordinates drawn", figure.dimension));
@@ -35,19 +40,17 @@ pub(super) fn draw(svg: &mut Svg, area: Rect, figure: &CurveFigure<'_>, notes: &
     let sx = Scale::new(parameters, area.x + 8.0, area.right() - 8.0);
     let across = Axis::linear(&sx, Direction::Across, false, "parameter");
     let height = (area.height - GAP * (count - 1) as f64) / count as f64;
+    let mut looks = Looks::default();
     for k in 0..count {
-        let panel = Rect {
-            y: area.y + (height + GAP) * k as f64,
-            height,
-            ..area
-        };
+        let panel = Rect { y: area.y + (height + GAP) * k as f64, height, ..area };
         let mut across = across.clone();
         if k + 1 < count {
             across.name.clear();
             across.marks.iter_mut().for_each(|mark| mark.1.clear());
         }
-        draw_one(svg, panel, figure, k, &sx, &across, notes);
+        looks = draw_one(svg, panel, figure, k, &sx, &across, notes);
     }
+    looks
 }
 
 fn draw_one(
@@ -58,14 +61,15 @@ fn draw_one(
     sx: &Scale,
     across: &Axis,
     notes: &mut Notes,
-) {
+) -> Looks {
     let shown = extent::of_coordinates(figure, k..k + 1, notes);
     let Some(values) = shown.first().copied().flatten() else {
         message(svg, area, "no points to draw");
-        return;
+        return Looks::default();
     };
     let sy = Scale::new(extent::padded(values), area.bottom(), area.y);
     let upward = Axis::linear(&sy, Direction::Upward, false, &figure.coordinate_name(k));
+    notes.offset(&[across, &upward]);
     plot::draw_axes(svg, area, across, &upward);
     let places = |parameters: &[f64], rows: Rows<'_>| {
         parameters
@@ -90,5 +94,5 @@ fn draw_one(
             .collect(),
     };
     let share = 1.0 / drawn(figure.dimension) as f64;
-    layers.draw(svg, area, &format!("coordinate-{k}"), share, notes);
+    layers.draw(svg, area, &format!("coordinate-{k}"), share, notes)
 }

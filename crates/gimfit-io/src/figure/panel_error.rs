@@ -2,6 +2,7 @@
 
 use super::decimate::{Bin, bins};
 use super::layers;
+use super::legend;
 use super::log_axis::LogScale;
 use super::notes::Notes;
 use super::plot::{self, Axis, Rect};
@@ -27,10 +28,7 @@ pub(super) fn draw(svg: &mut Svg, area: Rect, figure: &CurveFigure<'_>, notes: &
         message(svg, area, "no residuals");
         return;
     };
-    let indices = Interval {
-        low: 0.0,
-        high: (residuals.len() - 1) as f64,
-    };
+    let indices = Interval { low: 0.0, high: (residuals.len() - 1) as f64 };
     let sx = if residuals.len() == 1 {
         Scale::new(indices.grown(0.6), area.x, area.right())
     } else {
@@ -39,66 +37,52 @@ pub(super) fn draw(svg: &mut Svg, area: Rect, figure: &CurveFigure<'_>, notes: &
     let across = Axis::linear(&sx, Direction::Across, true, "index of the point (from 0)");
     if values.high <= 0.0 {
         plot::draw_axes(svg, area, &across, &Axis::default());
-        message(svg, area, "all residuals are 0");
+        message(svg, area, "all errors are 0");
         return;
     }
     let single = residuals.len() <= MOST_SINGLE;
     let made = bins(residuals, if single { residuals.len() } else { MOST_BINS });
     if !single && let Some(bin) = made.first() {
         let count = text::grouped(bin.count);
-        notes.add(format!(
-            "error drawn from the smallest to the largest of each {count} points"
-        ));
+        notes.add(format!("error drawn from smallest to largest (dot) of each {count} points"));
     }
-    let bars = Bars {
-        sx,
-        half: 0.5 * (made.first().map_or(1, |bin| bin.count) - 1) as f64,
-    };
+    let bars = Bars { sx, half: 0.5 * (made.first().map_or(1, |bin| bin.count) - 1) as f64 };
     let least = residuals.iter().copied().filter(|v| *v > 0.0);
     let least = least.fold(f64::INFINITY, f64::min);
     let log = (values.high / least > WIDE)
-        .then(|| {
-            LogScale::around(
-                residuals.iter().copied(),
-                area.bottom() - 5.0,
-                area.y + 5.0,
-            )
-        })
+        .then(|| LogScale::around(residuals.iter().copied(), area.bottom() - 5.0, area.y + 5.0))
         .flatten();
     match log {
         Some(log) => {
             let log = log.reaching(level::value(figure), 2);
             let below = residuals.iter().filter(|v| log.at(**v).1).count();
             if below > 0 {
-                notes.add(below_sentence(below, residuals.len(), &log));
+                notes.add(below_sentence(below, residuals.len(), &log, single));
             }
-            let axis = Axis {
-                marks: log.marks(17.0),
-                name: "residual".to_owned(),
-            };
+            let axis = Axis::logarithmic(&log, "residual");
             plot::draw_axes(svg, area, &across, &axis);
-            level::draw(svg, area, figure, &log);
-            bars.draw(svg, area, &made, |v| log.at(v).0);
+            if level::draw(svg, area, figure, &log) {
+                legend::draw_right(svg, area, &[level::entry()]);
+            }
+            bars.draw(svg, area, &made, |v| log.at(v));
         }
         None => {
-            let from_zero = Interval {
-                low: 0.0,
-                high: 1.08 * values.high.min(1.0e299),
-            };
+            let from_zero = Interval { low: 0.0, high: 1.08 * values.high.min(1.0e299) };
             let sy = Scale::new(from_zero, area.bottom(), area.y);
             let upward = Axis::linear(&sy, Direction::Upward, false, "residual");
             plot::draw_axes(svg, area, &across, &upward);
-            bars.draw(svg, area, &made, |v| sy.at(v));
+            bars.draw(svg, area, &made, |v| (sy.at(v), false));
         }
     }
 }
 
-fn below_sentence(below: usize, all: usize, log: &LogScale) -> String {
+fn below_sentence(below: usize, all: usize, log: &LogScale, single: bool) -> String {
     format!(
-        "{} of {} residuals below {} (0 included) drawn at the lower edge of the error axis",
+        "{} of {} errors below {} (0 included) drawn {} the lower edge",
         text::grouped(below),
         text::grouped(all),
-        log.bottom_label()
+        log.bottom_label(),
+        if single { "as rings at" } else { "at" }
     )
 }
 
@@ -110,36 +94,46 @@ struct Bars {
 }
 
 impl Bars {
-    fn draw(&self, svg: &mut Svg, area: Rect, bins: &[Bin], height: impl Fn(f64) -> f64) {
+    fn draw(&self, svg: &mut Svg, area: Rect, bins: &[Bin], height: impl Fn(f64) -> (f64, bool)) {
         let mut dots = Path::default();
+        let mut below_axis = Path::default();
         let mut stems = Path::default();
         let few = bins.len() <= 120;
         for bin in bins {
             let x = self.sx.at(bin.first as f64 + self.half);
-            let top = height(bin.high);
+            let (top, below) = height(bin.high);
             if bin.count > 1 {
-                // A stretch of equal errors must not vanish.
-                stems.upright(x, height(bin.low).max(top + 0.6), top - 0.6);
+                stems.upright(x, height(bin.low).0, top);
+            } else if few && !below {
+                stems.upright(x, area.bottom(), top);
+            }
+            if below {
+                below_axis.dot((x, top));
             } else {
                 dots.dot((x, top));
-                if few {
-                    stems.upright(x, area.bottom(), top);
-                }
             }
         }
-        let (width, opacity) = if few { (1.0, 0.35) } else { (0.9, 1.0) };
         if !stems.is_empty() {
-            svg.tag("g").number("opacity", opacity).open();
-            layers::stroke(svg, &stems, style::ERROR, width);
+            svg.tag("g").number("opacity", 0.35).open();
+            layers::stroke(svg, &stems, style::ERROR, 1.0);
             svg.close("g");
         }
-        if !dots.is_empty() {
-            svg.tag("path")
-                .attribute("d", dots.data())
-                .attribute("stroke", style::ERROR)
-                .number("stroke-width", if few { 4.0 } else { 2.6 })
-                .attribute("stroke-linecap", "round")
-                .end();
-        }
+        let size = if few { 4.0 } else { 2.6 };
+        draw_dots(svg, &dots, style::ERROR, size);
+        // Rings, since their place is not their value.
+        draw_dots(svg, &below_axis, style::ERROR, size);
+        draw_dots(svg, &below_axis, style::BACKGROUND, size - 1.4);
     }
+}
+
+fn draw_dots(svg: &mut Svg, dots: &Path, colour: &str, size: f64) {
+    if dots.is_empty() {
+        return;
+    }
+    svg.tag("path")
+        .attribute("d", dots.data())
+        .attribute("stroke", colour)
+        .number("stroke-width", size)
+        .attribute("stroke-linecap", "round")
+        .end();
 }

@@ -37,12 +37,11 @@ pub(super) fn draw(svg: &mut Svg, area: Rect, figure: &CurveFigure<'_>, notes: &
         return;
     };
     let log = log.reaching(level::value(figure), 2);
-    let axis = Axis {
-        marks: log.marks(17.0),
-        name: "residual".to_owned(),
-    };
+    let axis = Axis::logarithmic(&log, "residual");
     plot::draw_axes(svg, area, &across, &axis);
-    level::draw(svg, area, figure, &log);
+    if level::draw(svg, area, figure, &log) {
+        level::label(svg, area, figure, &log);
+    }
     let rms = Series::new(history.iter().map(|h| (h.0, h.2)), &sx, &log);
     let largest = Series::new(history.iter().map(|h| (h.0, h.1)), &sx, &log);
     if rms.any_below || largest.any_below {
@@ -53,10 +52,7 @@ pub(super) fn draw(svg: &mut Svg, area: Rect, figure: &CurveFigure<'_>, notes: &
     }
     rms.draw(svg, style::RMS, true, history.len());
     largest.draw(svg, style::LARGEST, false, history.len());
-    let entry = |sample, name: &str| Entry {
-        sample,
-        name: name.to_owned(),
-    };
+    let entry = |sample, name: &str| Entry { sample, name: name.to_owned() };
     let row = [
         entry(Sample::Line(style::LARGEST.to_owned(), 1.6), "largest"),
         entry(Sample::Dashes(style::RMS.to_owned(), 1.6), "rms"),

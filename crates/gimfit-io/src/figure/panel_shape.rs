@@ -2,7 +2,7 @@
 
 use super::decimate::Px;
 use super::extent;
-use super::layers::{self, Layers};
+use super::layers::{self, Layers, Looks};
 use super::notes::Notes;
 use super::plot::{self, Axis, Rect};
 use super::rows::Rows;
@@ -10,6 +10,9 @@ use super::scale::{Interval, Scale, equal_scales};
 use super::svg::Svg;
 use super::ticks::Direction;
 use super::{CurveFigure, message};
+
+/// Room between the outermost points and the frame.
+pub(super) const INSET: f64 = 26.0;
 
 /// The intervals that the panel shows, or `None` without any point.
 pub(super) fn intervals(figure: &CurveFigure<'_>, notes: &mut Notes) -> Option<[Interval; 2]> {
@@ -32,23 +35,17 @@ pub(super) fn draw(
     figure: &CurveFigure<'_>,
     shown: Option<[Interval; 2]>,
     notes: &mut Notes,
-) {
+) -> Looks {
     let Some([x, y]) = shown else {
         message(svg, area, "no points to draw");
-        return;
+        return Looks::default();
     };
-    // The padding is equal in the picture, so it depends on the longer side.
-    let room = 0.045 * x.span().max(y.span() * area.width / area.height);
-    let (sx, sy) = equal_scales(
-        x.grown(room),
-        y.grown(room),
-        area.across(),
-        area.upward(),
-    );
+    let (sx, sy) = equal_scales(x, y, area.across(), area.upward(), INSET);
     let horizontal = Axis::linear(&sx, Direction::Across, false, &figure.coordinate_name(0));
     let upright = Axis::linear(&sy, Direction::Upward, false, &figure.coordinate_name(1));
+    notes.offset(&[&horizontal, &upright]);
     plot::draw_axes(svg, area, &horizontal, &upright);
-    layers_of(figure, sx, sy).draw(svg, area, "shape", 1.0, notes);
+    layers_of(figure, sx, sy).draw(svg, area, "shape", 1.0, notes)
 }
 
 fn layers_of(figure: &CurveFigure<'_>, sx: Scale, sy: Scale) -> Layers {
@@ -62,14 +59,7 @@ fn layers_of(figure: &CurveFigure<'_>, sx: Scale, sy: Scale) -> Layers {
         curve: places(figure.curve()),
         pieces: pieces
             .chunks_exact(8)
-            .map(|b| {
-                [
-                    place(b[0], b[1]),
-                    place(b[2], b[3]),
-                    place(b[4], b[5]),
-                    place(b[6], b[7]),
-                ]
-            })
+            .map(|b| [place(b[0], b[1]), place(b[2], b[3]), place(b[4], b[5]), place(b[6], b[7])])
             .collect(),
         earlier: layers::earlier_drawn(figure.sequence.len())
             .into_iter()

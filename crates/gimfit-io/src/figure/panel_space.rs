@@ -3,7 +3,7 @@
 
 use super::decimate::Px;
 use super::extent;
-use super::layers::{self, Layers};
+use super::layers::{self, Layers, Looks};
 use super::notes::Notes;
 use super::plot::Rect;
 use super::rows::Rows;
@@ -15,19 +15,61 @@ use super::{CurveFigure, message, style, text};
 
 /// Room around the box for labels.
 const AROUND: f64 = 50.0;
+/// Above the box there are none.
+const ABOVE: f64 = 8.0;
 
 /// A side of the box is never thinner than this part of the longest side.
 const THINNEST: f64 = 0.12;
 
+/// The box of a curve and how it is seen.
+pub(super) struct Scene {
+    view: View,
+    sides: [Interval; 3],
+    /// What the box covers across and upward.
+    cover: [Interval; 2],
+}
+
+impl Scene {
+    /// The scene of `figure`, or `None` without any point.
+    pub(super) fn of(figure: &CurveFigure<'_>, notes: &mut Notes) -> Option<Self> {
+        let shown = extent::of_coordinates(figure, 0..3, notes);
+        let [Some(x), Some(y), Some(z)] = shown.as_slice() else {
+            return None;
+        };
+        let shown = [*x, *y, *z];
+        let longest = shown.iter().map(Interval::span).fold(0.0, f64::max);
+        let sides = shown.map(|values| {
+            let missing = (THINNEST * longest - values.span()).max(0.0);
+            extent::padded(values.grown(0.5 * missing))
+        });
+        let view = View::of(figure.data(), &sides);
+        let corners = (0..8).map(|number| view.project(&corner(&sides, number)));
+        let (us, vs): (Vec<f64>, Vec<f64>) = corners.unzip();
+        let cover = [Interval::around(us.into_iter())?, Interval::around(vs.into_iter())?];
+        Some(Self { view, sides, cover })
+    }
+
+    /// Width of a panel `height` high that the box fills.
+    pub(super) fn width_for(&self, height: f64) -> f64 {
+        let [across, upward] = self.cover.map(|interval| interval.opened().span());
+        (height - AROUND - ABOVE) * across / upward + 2.0 * AROUND
+    }
+}
+
 /// Draws the panel into `area`.
-pub(super) fn draw(svg: &mut Svg, area: Rect, figure: &CurveFigure<'_>, notes: &mut Notes) {
-    let shown = extent::of_coordinates(figure, 0..3, notes);
-    let [Some(x), Some(y), Some(z)] = shown.as_slice() else {
+pub(super) fn draw(
+    svg: &mut Svg,
+    area: Rect,
+    figure: &CurveFigure<'_>,
+    scene: Option<Scene>,
+    notes: &mut Notes,
+) -> Looks {
+    let Some(scene) = scene else {
         message(svg, area, "no points to draw");
-        return;
+        return Looks::default();
     };
-    let stage = Stage::new(area, figure, [*x, *y, *z]);
-    stage.draw_box(svg, figure);
+    let stage = Stage::new(area, scene);
+    stage.draw_box(svg, figure, notes);
     let places = |rows: Rows<'_>| rows.iter().map(|p| stage.place(p)).collect::<Vec<_>>();
     let layers = Layers {
         data: places(figure.data()),
@@ -40,7 +82,7 @@ pub(super) fn draw(svg: &mut Svg, area: Rect, figure: &CurveFigure<'_>, notes: &
             .map(|k| places(Rows::new(figure.sequence[k].curve.points, 3)))
             .collect(),
     };
-    layers.draw(svg, area, "space", 1.0, notes);
+    layers.draw(svg, area, "space", 1.0, notes)
 }
 
 /// A view fitted into the panel.
@@ -52,32 +94,15 @@ struct Stage {
 }
 
 impl Stage {
-    fn new(area: Rect, figure: &CurveFigure<'_>, shown: [Interval; 3]) -> Self {
-        let longest = shown.iter().map(Interval::span).fold(0.0, f64::max);
-        let sides = shown.map(|values| {
-            let missing = (THINNEST * longest - values.span()).max(0.0);
-            extent::padded(values.grown(0.5 * missing))
-        });
-        let view = View::of(figure.data(), &sides);
-        let corners: Vec<Px> = (0..8).map(|c| view.project(&corner(&sides, c))).collect();
-        let open = Interval {
-            low: -1.0,
-            high: 1.0,
-        };
-        let us = Interval::around(corners.iter().map(|c| c.0)).unwrap_or(open);
-        let vs = Interval::around(corners.iter().map(|c| c.1)).unwrap_or(open);
+    fn new(area: Rect, scene: Scene) -> Self {
         let (across, upward) = equal_scales(
-            us,
-            vs,
+            scene.cover[0],
+            scene.cover[1],
             (area.x + AROUND, area.right() - AROUND),
-            (area.bottom() - AROUND, area.y + 8.0),
+            (area.bottom() - AROUND, area.y + ABOVE),
+            0.0,
         );
-        Self {
-            view,
-            sides,
-            across,
-            upward,
-        }
+        Self { view: scene.view, sides: scene.sides, across, upward }
     }
 
     fn place(&self, point: &[f64]) -> Px {
@@ -87,16 +112,14 @@ impl Stage {
 
     /// The value of coordinate `k` on the near or the far side of the box.
     fn side(&self, k: usize, near: bool) -> f64 {
-        if self.view.sees_high_side(k) == near {
-            self.sides[k].high
-        } else {
-            self.sides[k].low
-        }
+        if self.view.sees_high_side(k) == near { self.sides[k].high } else { self.sides[k].low }
     }
 
-    fn draw_box(&self, svg: &mut Svg, figure: &CurveFigure<'_>) {
+    fn draw_box(&self, svg: &mut Svg, figure: &CurveFigure<'_>, notes: &mut Notes) {
         for k in 0..3 {
-            self.draw_axis(svg, k, &figure.coordinate_name(k));
+            if self.draw_axis(svg, k, &figure.coordinate_name(k)) {
+                notes.offset_of_labels();
+            }
         }
         // Edges of the three far sides, each once or twice.
         for k in 0..3 {
@@ -132,16 +155,13 @@ impl Stage {
         }
     }
 
-    fn draw_axis(&self, svg: &mut Svg, k: usize, name: &str) {
+    /// Draws grid, labels and name; tells whether the labels have an offset.
+    fn draw_axis(&self, svg: &mut Svg, k: usize, name: &str) -> bool {
         let (next, last) = ((k + 1) % 3, (k + 2) % 3);
         let (near_next, near_last) = self.labelled_edge(k);
         let (from, to) = self.edge(k, near_next, near_last);
         let length = (to.0 - from.0).hypot(to.1 - from.1);
-        let direction = if k == 2 {
-            Direction::Upward
-        } else {
-            Direction::Across
-        };
+        let direction = if k == 2 { Direction::Upward } else { Direction::Across };
         let values = self.sides[k].opened();
         let ticks = ticks::linear_ticks(values, length, direction, false);
         let mut widest = 0.0_f64;
@@ -181,6 +201,7 @@ impl Stage {
             format!("{name}  ({})", ticks.common)
         };
         label_beside(svg, middle, outward, away, style::LABEL_SIZE + 1.0, &name);
+        ticks.has_offset
     }
 
     /// The direction from the box to the outside, across the edge.
@@ -191,11 +212,7 @@ impl Stage {
         let normal = (-along.1 / length, along.0 / length);
         let middle = (0.5 * (from.0 + to.0), 0.5 * (from.1 + to.1));
         let toward = (middle.0 - centre.0) * normal.0 + (middle.1 - centre.1) * normal.1;
-        if toward < 0.0 {
-            (-normal.0, -normal.1)
-        } else {
-            normal
-        }
+        if toward < 0.0 { (-normal.0, -normal.1) } else { normal }
     }
 }
 
@@ -203,11 +220,7 @@ impl Stage {
 fn corner(sides: &[Interval; 3], number: usize) -> [f64; 3] {
     let mut point = [0.0; 3];
     for k in 0..3 {
-        point[k] = if number >> k & 1 == 0 {
-            sides[k].low
-        } else {
-            sides[k].high
-        };
+        point[k] = if number >> k & 1 == 0 { sides[k].low } else { sides[k].high };
     }
     point
 }
@@ -222,9 +235,7 @@ fn label_beside(svg: &mut Svg, at: Px, outward: Px, away: f64, size: f64, conten
         "middle"
     };
     // Half the height of the letters goes to the side that faces the edge.
-    let place = (
-        at.0 + away * outward.0,
-        at.1 + away * outward.1 + 0.36 * size + 0.4 * size * outward.1,
-    );
+    let place =
+        (at.0 + away * outward.0, at.1 + away * outward.1 + 0.36 * size + 0.4 * size * outward.1);
     svg.label(place, size, style::INK_SOFT, anchor, content);
 }

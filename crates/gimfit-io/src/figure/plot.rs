@@ -38,6 +38,8 @@ pub(super) struct Axis {
     /// Position and label; an empty label draws the grid line alone.
     pub(super) marks: Vec<(f64, String)>,
     pub(super) name: String,
+    /// Whether the labels need something added to be the values.
+    pub(super) has_offset: bool,
 }
 
 impl Axis {
@@ -49,19 +51,22 @@ impl Axis {
         whole: bool,
         name: &str,
     ) -> Self {
-        let ticks =
-            super::ticks::linear_ticks(scale.values(), scale.length(), direction, whole);
+        let ticks = super::ticks::linear_ticks(scale.values(), scale.length(), direction, whole);
         let name = match (name.is_empty(), ticks.common.is_empty()) {
             (_, true) => name.to_owned(),
             (true, false) => ticks.common.clone(),
             (false, false) => format!("{name}  ({})", ticks.common),
         };
-        let marks = ticks
-            .marks
-            .into_iter()
-            .map(|(value, label)| (scale.at(value), label))
-            .collect();
-        Self { marks, name }
+        let marks =
+            ticks.marks.into_iter().map(|(value, label)| (scale.at(value), label)).collect();
+        Self { marks, name, has_offset: ticks.has_offset }
+    }
+}
+
+impl Axis {
+    /// An axis with the decades of `log`.
+    pub(super) fn logarithmic(log: &super::log_axis::LogScale, name: &str) -> Self {
+        Self { marks: log.marks(17.0), name: name.to_owned(), has_offset: false }
     }
 }
 
@@ -104,12 +109,9 @@ fn upright_name(svg: &mut Svg, area: Rect, name: &str) {
         return;
     }
     let size = style::LABEL_SIZE + 0.5;
-    let place = (area.x - 55.0, area.y + 0.5 * area.height);
+    let place = (area.x - 60.0, area.y + 0.5 * area.height);
     svg.tag("g")
-        .attribute(
-            "transform",
-            &format!("translate({:.2} {:.2}) rotate(-90)", place.0, place.1),
-        )
+        .attribute("transform", &format!("translate({:.2} {:.2}) rotate(-90)", place.0, place.1))
         .open();
     let name = text::fit(name, size, area.height + 20.0);
     svg.label((0.0, 0.0), size, style::INK, "middle", &name);
@@ -134,7 +136,5 @@ pub(super) fn open_clipped(svg: &mut Svg, area: Rect, margin: f64, id: &str) {
         .number("height", area.height + 2.0 * margin)
         .end();
     svg.close("clipPath");
-    svg.tag("g")
-        .attribute("clip-path", &format!("url(#{id})"))
-        .open();
+    svg.tag("g").attribute("clip-path", &format!("url(#{id})")).open();
 }

@@ -35,11 +35,8 @@ pub enum FigureError {
 /// Only the embedded font is used, never one of the machine, so that the same
 /// SVG gives the same picture everywhere.
 pub fn svg_to_png(svg: &str, scale: f32) -> Result<Vec<u8>, FigureError> {
-    let options = Options {
-        font_family: "DejaVu Sans".to_owned(),
-        fontdb: fonts(),
-        ..Options::default()
-    };
+    let options =
+        Options { font_family: "DejaVu Sans".to_owned(), fontdb: fonts(), ..Options::default() };
     let tree = Tree::from_str(svg, &options).map_err(|e| FigureError::Svg(e.to_string()))?;
     let width = (f64::from(tree.size().width()) * f64::from(scale)).ceil();
     let height = (f64::from(tree.size().height()) * f64::from(scale)).ceil();
@@ -48,14 +45,8 @@ pub fn svg_to_png(svg: &str, scale: f32) -> Result<Vec<u8>, FigureError> {
         .then(|| Pixmap::new(width as u32, height as u32))
         .flatten()
         .ok_or(FigureError::Size { width, height })?;
-    resvg::render(
-        &tree,
-        Transform::from_scale(scale, scale),
-        &mut pixels.as_mut(),
-    );
-    pixels
-        .encode_png()
-        .map_err(|e| FigureError::Png(e.to_string()))
+    resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixels.as_mut());
+    pixels.encode_png().map_err(|e| FigureError::Png(e.to_string()))
 }
 
 /// The embedded font, read once.
@@ -76,11 +67,7 @@ mod tests {
     fn dark_pixels(svg: &str) -> usize {
         let png = svg_to_png(svg, 1.0).unwrap();
         let picture = Pixmap::decode_png(&png).unwrap();
-        picture
-            .pixels()
-            .iter()
-            .filter(|p| p.alpha() > 0 && p.red() < 100)
-            .count()
+        picture.pixels().iter().filter(|p| p.alpha() > 0 && p.red() < 100).count()
     }
 
     #[test]
@@ -101,15 +88,9 @@ mod tests {
     fn bad_input_is_an_error() {
         let good = r#"<svg xmlns="http://www.w3.org/2000/svg" width="20" height="20"/>"#;
         assert!(svg_to_png(good, 1.0).is_ok());
-        assert!(matches!(
-            svg_to_png("no svg", 1.0),
-            Err(FigureError::Svg(_))
-        ));
+        assert!(matches!(svg_to_png("no svg", 1.0), Err(FigureError::Svg(_))));
         for scale in [0.0, -1.0, f32::NAN, f32::INFINITY, 1.0e9] {
-            assert!(matches!(
-                svg_to_png(good, scale),
-                Err(FigureError::Size { .. })
-            ));
+            assert!(matches!(svg_to_png(good, scale), Err(FigureError::Size { .. })));
         }
     }
 }

@@ -12,10 +12,7 @@ impl<'a> Rows<'a> {
     pub(super) fn new(flat: &'a [f64], dimension: usize) -> Self {
         // Points without coordinates are no points.
         let flat = if dimension == 0 { &[] } else { flat };
-        Self {
-            flat,
-            dimension: dimension.max(1),
-        }
+        Self { flat, dimension: dimension.max(1) }
     }
 
     pub(super) fn len(&self) -> usize {

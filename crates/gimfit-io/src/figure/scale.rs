@@ -41,18 +41,12 @@ impl Interval {
 
     /// The smallest interval that holds both.
     pub(super) fn union(self, other: Self) -> Self {
-        Self {
-            low: self.low.min(other.low),
-            high: self.high.max(other.high),
-        }
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
     /// The interval made longer by `amount` at both ends.
     pub(super) fn grown(self, amount: f64) -> Self {
-        Self {
-            low: (self.low - amount).max(-LARGEST),
-            high: (self.high + amount).min(LARGEST),
-        }
+        Self { low: (self.low - amount).max(-LARGEST), high: (self.high + amount).min(LARGEST) }
     }
 
     /// The interval itself, or one about it that is long enough to draw if
@@ -64,10 +58,7 @@ impl Interval {
         }
         let half = if size > 1.0e-290 { 0.1 * size } else { 1.0 };
         let centre = self.centre();
-        Self {
-            low: centre - half,
-            high: centre + half,
-        }
+        Self { low: centre - half, high: centre + half }
     }
 }
 
@@ -88,19 +79,11 @@ pub(super) struct Scale {
 impl Scale {
     /// The map that takes the ends of `values` to `start` and `end`.
     pub(super) fn new(values: Interval, start: f64, end: f64) -> Self {
-        Self {
-            values: values.opened(),
-            start,
-            end,
-        }
+        Self { values: values.opened(), start, end }
     }
 
     pub(super) fn values(&self) -> Interval {
         self.values
-    }
-
-    pub(super) fn ends(&self) -> (f64, f64) {
-        (self.start, self.end)
     }
 
     /// Length in the picture.
@@ -120,19 +103,20 @@ impl Scale {
 }
 
 /// Two scales with the same number of units to a length of the picture: both
-/// intervals are made longer about their centres to fill the rectangle.
+/// intervals are made longer about their centres to fill the rectangle, and
+/// at least `margin` of it is left on each side.
 pub(super) fn equal_scales(
     x: Interval,
     y: Interval,
     across: (f64, f64),
     upward: (f64, f64),
+    margin: f64,
 ) -> (Scale, Scale) {
     let width = (across.1 - across.0).abs();
     let height = (upward.1 - upward.0).abs();
-    let units = (x.span() / width).max(y.span() / height);
-    let size = [x.low, x.high, y.low, y.high]
-        .iter()
-        .fold(0.0_f64, |size, v| size.max(v.abs()));
+    let inner = |length: f64| (length - 2.0 * margin).max(1.0);
+    let units = (x.span() / inner(width)).max(y.span() / inner(height));
+    let size = [x.low, x.high, y.low, y.high].iter().fold(0.0_f64, |size, v| size.max(v.abs()));
     // Where all points are one point any scale will do, if one can read it.
     let units = if units * width.max(height) > shortest_span(size) {
         units
@@ -144,10 +128,7 @@ pub(super) fn equal_scales(
     let about = |values: Interval, length: f64| {
         let half = 0.5 * units * length;
         let centre = values.centre();
-        Interval {
-            low: centre - half,
-            high: centre + half,
-        }
+        Interval { low: centre - half, high: centre + half }
     };
     (
         Scale::new(about(x, width), across.0, across.1),
@@ -182,18 +163,12 @@ mod tests {
 
     #[test]
     fn equal_scales_agree_and_hold_everything() {
-        let x = Interval {
-            low: 0.0,
-            high: 10.0,
-        };
-        let y = Interval {
-            low: -1.0,
-            high: 1.0,
-        };
-        let (sx, sy) = equal_scales(x, y, (0.0, 200.0), (100.0, 0.0));
+        let x = Interval { low: 0.0, high: 10.0 };
+        let y = Interval { low: -1.0, high: 1.0 };
+        let (sx, sy) = equal_scales(x, y, (0.0, 220.0), (100.0, 0.0), 10.0);
         let per_unit = |s: &Scale| (s.at(1.0) - s.at(0.0)).abs();
         assert!((per_unit(&sx) - per_unit(&sy)).abs() < 1e-9);
-        assert!((sx.at(0.0), sx.at(10.0)) == (0.0, 200.0));
+        assert!((sx.at(0.0), sx.at(10.0)) == (10.0, 210.0));
         assert!(sy.at(0.0) == 50.0);
     }
 }

@@ -33,17 +33,13 @@ pub(super) const NOTE_SIZE: f64 = 10.0;
 /// White space around the whole figure.
 pub(super) const MARGIN: f64 = 28.0;
 /// Room left of a plot for its tick labels and the name of its axis.
-pub(super) const AXIS_LEFT: f64 = 68.0;
+pub(super) const AXIS_LEFT: f64 = 72.0;
 /// Room under a plot for its tick labels and the name of its axis.
 pub(super) const AXIS_BELOW: f64 = 42.0;
 
 /// Colour number `index` of `count` of the ramp for earlier iterations.
 pub(super) fn ramp(index: usize, count: usize) -> String {
-    let t = if count > 1 {
-        index as f64 / (count - 1) as f64
-    } else {
-        1.0
-    };
+    let t = if count > 1 { index as f64 / (count - 1) as f64 } else { 1.0 };
     let channel = |k: usize| (RAMP_PALE[k] + (RAMP_STRONG[k] - RAMP_PALE[k]) * t).round() as u8;
     format!("#{:02x}{:02x}{:02x}", channel(0), channel(1), channel(2))
 }

@@ -195,11 +195,8 @@ impl Path {
 fn push_number(out: &mut String, value: f64) {
     // Far outside any picture, yet within what every viewer can hold.
     const FAR: f64 = 1.0e6;
-    let hundredths = if value.is_nan() {
-        0
-    } else {
-        (value.clamp(-FAR, FAR) * 100.0).round() as i64
-    };
+    let hundredths =
+        if value.is_nan() { 0 } else { (value.clamp(-FAR, FAR) * 100.0).round() as i64 };
     if hundredths < 0 {
         out.push('-');
     }

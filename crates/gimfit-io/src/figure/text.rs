@@ -28,6 +28,7 @@ fn advance(c: char) -> f64 {
     match ASCII_ADVANCES.get(index) {
         Some(&units) => f64::from(units) / 2048.0,
         None if c == '−' || c == '×' => 1716.0 / 2048.0,
+        None if c == '\u{a0}' => 651.0 / 2048.0,
         // Latin, Greek and Cyrillic letters seldom exceed 0.8 of the size;
         // ideographs fill the whole square.
         None if u32::from(c) < 0x2000 => 0.8,

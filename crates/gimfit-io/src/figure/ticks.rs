@@ -10,16 +10,18 @@ use super::{style, text};
 const MOST_STEPS_FROM_ZERO: f64 = 2.0e4;
 
 /// Labels of more characters share a factor, lest they reach the axis name.
-const LONGEST_LABEL: usize = 7;
+const LONGEST_LABEL: usize = 6;
 
 /// Positions with labels, and what all labels have in common.
 #[derive(Clone, Debug)]
 pub(super) struct Ticks {
     /// Position and label, in rising order.
     pub(super) marks: Vec<(f64, String)>,
-    /// Common factor and offset as text, such as `×10⁻³ + 1000000000`; empty
-    /// where the labels are the values themselves.
+    /// Common factor and offset as text, such as `×10⁻³ + 1 000 000 000`;
+    /// empty where the labels are the values themselves.
     pub(super) common: String,
+    /// Whether there is an offset.
+    pub(super) has_offset: bool,
 }
 
 /// A step of 1, 2 or 5 times a power of ten.
@@ -32,10 +34,7 @@ struct Step {
 impl Step {
     /// The smallest step that is not below `length`.
     fn at_least(length: f64) -> Self {
-        let mut step = Self {
-            multiple: 1,
-            exponent: order(length) - 1,
-        };
+        let mut step = Self { multiple: 1, exponent: order(length) - 1 };
         // Four steps reach ten times the start; the rest is for rounding.
         for _ in 0..8 {
             if step.size() >= length {
@@ -48,26 +47,15 @@ impl Step {
 
     fn next(self) -> Self {
         match self.multiple {
-            1 => Self {
-                multiple: 2,
-                ..self
-            },
-            2 => Self {
-                multiple: 5,
-                ..self
-            },
-            _ => Self {
-                multiple: 1,
-                exponent: self.exponent + 1,
-            },
+            1 => Self { multiple: 2, ..self },
+            2 => Self { multiple: 5, ..self },
+            _ => Self { multiple: 1, exponent: self.exponent + 1 },
         }
     }
 
     /// The nearest double; dividing by powers of ten would not give it.
     fn size(self) -> f64 {
-        format!("{}e{}", self.multiple, self.exponent)
-            .parse()
-            .unwrap_or(f64::MAX)
+        format!("{}e{}", self.multiple, self.exponent).parse().unwrap_or(f64::MAX)
     }
 }
 
@@ -90,24 +78,43 @@ pub(super) fn linear_ticks(
     whole: bool,
 ) -> Ticks {
     let wanted = match direction {
-        Direction::Across => length / 70.0,
+        // Long axes need more labels, but not in proportion.
+        Direction::Across => 0.35 * length.sqrt(),
         Direction::Upward => length / 42.0,
     };
     let mut step = Step::at_least(values.span() / wanted.max(1.5));
-    if whole && step.exponent < 0 {
-        step = Step {
-            multiple: 1,
-            exponent: 0,
-        };
+    let mut ticks = fitting(values, length, direction, whole, &mut step);
+    // One label tells no scale: finer steps may still fit.
+    for _ in 0..2 {
+        if ticks.marks.len() >= 2 {
+            break;
+        }
+        let mut finer = Step::at_least(0.3 * step.size());
+        ticks = fitting(values, length, direction, whole, &mut finer);
+        step = finer;
     }
-    let mut ticks = ticks_with(values, step);
+    ticks
+}
+
+/// Ticks with `step` or the next larger one at which labels stay apart.
+fn fitting(
+    values: Interval,
+    length: f64,
+    direction: Direction,
+    whole: bool,
+    step: &mut Step,
+) -> Ticks {
+    if whole && step.exponent < 0 {
+        *step = Step { multiple: 1, exponent: 0 };
+    }
+    let mut ticks = ticks_with(values, *step, whole);
     // Each step is at least twice the last, so few tries leave one label.
     for _ in 0..16 {
         if fits(&ticks, values, length, direction) {
             break;
         }
-        step = step.next();
-        ticks = ticks_with(values, step);
+        *step = step.next();
+        ticks = ticks_with(values, *step, whole);
     }
     ticks
 }
@@ -127,33 +134,22 @@ fn fits(ticks: &Ticks, values: Interval, length: f64, direction: Direction) -> b
     })
 }
 
-fn ticks_with(values: Interval, step: Step) -> Ticks {
+fn ticks_with(values: Interval, step: Step, whole: bool) -> Ticks {
     let size = step.size();
     let far = values.low.abs().max(values.high.abs()) / size > MOST_STEPS_FROM_ZERO;
-    let (offset, offset_text) = if far {
-        offset_near(values)
-    } else {
-        (0.0, String::new())
-    };
+    let (offset, offset_text) = if far { offset_near(values) } else { (0.0, String::new()) };
     let first = ((values.low - offset) / size - 1.0e-6).ceil() as i64;
     let last = ((values.high - offset) / size + 1.0e-6).floor() as i64;
     // A broken interval must not make a long loop.
     let last = last.min(first.saturating_add(60));
     let largest = first.unsigned_abs().max(last.unsigned_abs()) * step.multiple as u64;
     let order = step.exponent + largest.max(1).ilog10() as i32;
-    let longest = decimal(-(largest as i64), step.exponent).chars().count();
-    let factor = if (-3..=4).contains(&order) && longest <= LONGEST_LABEL {
-        0
-    } else {
-        order
-    };
+    let longest = decimal(first.min(-1) * step.multiple, step.exponent);
+    let short = (-3..=4).contains(&order) && longest.chars().count() <= LONGEST_LABEL;
+    // Counts are read best in full.
+    let factor = if short || (whole && order <= 7) { 0 } else { order };
     let marks = (first..=last)
-        .map(|k| {
-            (
-                offset + k as f64 * size,
-                decimal(k * step.multiple, step.exponent - factor),
-            )
-        })
+        .map(|k| (offset + k as f64 * size, decimal(k * step.multiple, step.exponent - factor)))
         .collect();
     let mut common = String::new();
     if factor != 0 {
@@ -166,7 +162,7 @@ fn ticks_with(values: Interval, step: Step) -> Ticks {
         }
         common.push_str(&offset_text);
     }
-    Ticks { marks, common }
+    Ticks { marks, common, has_offset: !offset_text.is_empty() }
 }
 
 /// A round value near the centre of `values`, and how to say that it is added.
@@ -181,7 +177,8 @@ fn offset_near(values: Interval) -> (f64, String) {
     let exponent: i32 = exponent.parse().unwrap_or(0);
     let magnitude = if (-4..15).contains(&exponent) {
         let places = (digits as i32 - exponent).max(0) as usize;
-        without_end_zeros(&format!("{:.places$}", offset.abs())).to_owned()
+        let digits = format!("{:.places$}", offset.abs());
+        grouped(without_end_zeros(&digits))
     } else {
         let mantissa = without_end_zeros(mantissa.trim_start_matches('-'));
         format!("{mantissa}×{}", text::power_of_ten(exponent))
@@ -192,10 +189,15 @@ fn offset_near(values: Interval) -> (f64, String) {
 
 /// `number` without zeros that end its decimal places.
 fn without_end_zeros(number: &str) -> &str {
-    if number.contains('.') {
-        number.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        number
+    if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }
+}
+
+/// `number` with gaps between groups of three digits before the point.
+fn grouped(number: &str) -> String {
+    let (whole, rest) = number.split_at(number.find('.').unwrap_or(number.len()));
+    match whole.parse::<usize>() {
+        Ok(whole) => text::grouped(whole) + rest,
+        Err(_) => number.to_owned(),
     }
 }
 
@@ -206,10 +208,7 @@ pub(super) fn order(value: f64) -> i32 {
     }
     // The logarithm may round up to the next whole number; the digits do not.
     let digits = format!("{:e}", value.abs());
-    digits
-        .split_once('e')
-        .and_then(|(_, exponent)| exponent.parse().ok())
-        .unwrap_or(0)
+    digits.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0)
 }
 
 /// `number` times ten to the power of `exponent`, written out.
@@ -265,17 +264,15 @@ mod tests {
     #[test]
     fn values_far_from_the_origin_share_an_offset() {
         let far = ticks(1.0e9 - 1.0e-3, 1.0e9 + 1.0e-3);
-        assert_eq!(far.common, "+ 1000000000");
+        assert_eq!(far.common, "×10⁻³ + 1\u{a0}000\u{a0}000\u{a0}000");
+        assert!(far.has_offset);
         let shown: Vec<_> = far.marks.iter().map(|m| m.1.as_str()).collect();
-        assert_eq!(shown, ["−0.0010", "−0.0005", "0", "0.0005", "0.0010"]);
+        assert_eq!(shown, ["−1.0", "−0.5", "0", "0.5", "1.0"]);
     }
 
     #[test]
     fn whole_axes_have_whole_labels() {
-        let values = Interval {
-            low: 0.0,
-            high: 1.0,
-        };
+        let values = Interval { low: 0.0, high: 1.0 };
         let few = linear_ticks(values, 300.0, Direction::Across, true);
         let shown: Vec<_> = few.marks.iter().map(|m| m.1.as_str()).collect();
         assert_eq!(shown, ["0", "1"]);

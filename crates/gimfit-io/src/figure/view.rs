@@ -8,9 +8,8 @@ const ELEVATION: f64 = 24.0;
 
 /// Directions tried, in degrees from the first axis; none looks along an
 /// axis, which would hide it.
-const AZIMUTHS: [f64; 12] = [
-    -60.0, -50.0, -40.0, -70.0, -30.0, -20.0, 30.0, 40.0, 50.0, 60.0, 20.0, 70.0,
-];
+const AZIMUTHS: [f64; 12] =
+    [-60.0, -50.0, -40.0, -70.0, -30.0, -20.0, 30.0, 40.0, 50.0, 60.0, 20.0, 70.0];
 
 /// Points looked at to find the view; more would not change it.
 const MOST_POINTS: usize = 20_000;
@@ -106,10 +105,7 @@ fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
 mod tests {
     use super::*;
 
-    const UNIT: Interval = Interval {
-        low: -1.0,
-        high: 1.0,
-    };
+    const UNIT: Interval = Interval { low: -1.0, high: 1.0 };
 
     #[test]
     fn up_stays_up_and_lengths_shrink() {

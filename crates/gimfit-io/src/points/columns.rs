@@ -14,7 +14,8 @@ pub(super) struct Offer<'a> {
     pub(super) named: bool,
     /// The columns taken without a choice.
     pub(super) usual: Vec<usize>,
-    /// Why they are taken, where they are not all: "because ...".
+    /// Why they are taken, where they are not all. If empty, the caller says
+    /// itself what was left out.
     pub(super) why: &'a str,
 }
 
@@ -29,6 +30,26 @@ impl Selection {
     /// Every column to read, once or more.
     pub(super) fn all(&self) -> impl Iterator<Item = usize> + '_ {
         self.coordinates.iter().copied().chain(self.abscissa)
+    }
+
+    /// The numbers of the selected columns, row by row, and of the abscissa;
+    /// `value` gives the one in a row and a column.
+    pub(super) fn gather<E>(
+        &self,
+        rows: usize,
+        mut value: impl FnMut(usize, usize) -> Result<f64, E>,
+    ) -> Result<(Vec<f64>, Option<Vec<f64>>), E> {
+        let mut coordinates = Vec::with_capacity(rows.saturating_mul(self.coordinates.len()));
+        let mut abscissa = self.abscissa.map(|_| Vec::with_capacity(rows));
+        for row in 0..rows {
+            for column in &self.coordinates {
+                coordinates.push(value(row, *column)?);
+            }
+            if let (Some(out), Some(column)) = (&mut abscissa, self.abscissa) {
+                out.push(value(row, column)?);
+            }
+        }
+        Ok((coordinates, abscissa))
     }
 
     /// The names of the coordinate columns.
@@ -62,10 +83,7 @@ pub(super) fn select(
             ));
         }
         note_left_out(&offer, &coordinates, abscissa, notes);
-        return Ok(Selection {
-            coordinates,
-            abscissa,
-        });
+        return Ok(Selection { coordinates, abscissa });
     };
     let mut coordinates = Vec::with_capacity(choices.len());
     let mut taken = vec![false; offer.names.len()];
@@ -79,10 +97,7 @@ pub(super) fn select(
     if coordinates.is_empty() {
         return refuse("the choice of columns is empty; choose at least one".to_owned());
     }
-    Ok(Selection {
-        coordinates,
-        abscissa,
-    })
+    Ok(Selection { coordinates, abscissa })
 }
 
 fn note_left_out(
@@ -91,14 +106,14 @@ fn note_left_out(
     abscissa: Option<usize>,
     notes: &mut Vec<String>,
 ) {
+    if coordinates.len() == offer.names.len() {
+        return;
+    }
     let names = |wanted: &dyn Fn(usize) -> bool| -> Vec<&str> {
-        (0..offer.names.len())
-            .filter(|at| wanted(*at))
-            .map(|at| offer.names[at].as_str())
-            .collect()
+        (0..offer.names.len()).filter(|at| wanted(*at)).map(|at| offer.names[at].as_str()).collect()
     };
     let left_out = names(&|at| !coordinates.contains(&at) && abscissa != Some(at));
-    if left_out.is_empty() {
+    if left_out.is_empty() || offer.why.is_empty() {
         return;
     }
     let taken: Vec<&str> = coordinates.iter().map(|at| offer.names[*at].as_str()).collect();
@@ -112,25 +127,18 @@ fn note_left_out(
 
 /// The index of the column that `choice` means.
 fn find(choice: &ColumnChoice, offer: &Offer<'_>) -> Result<usize, Problem> {
-    let unknown = || Problem::UnknownColumn {
-        asked: choice.to_string(),
-        there: there(offer),
-    };
+    let unknown = || Problem::UnknownColumn { asked: choice.to_string(), there: there(offer) };
     match choice {
-        ColumnChoice::Number(number) => number
-            .checked_sub(1)
-            .filter(|at| *at < offer.names.len())
-            .ok_or_else(unknown),
+        ColumnChoice::Number(number) => {
+            number.checked_sub(1).filter(|at| *at < offer.names.len()).ok_or_else(unknown)
+        }
         ColumnChoice::Name(name) => {
             let lower = name.to_lowercase();
             let alike: Vec<usize> = (0..offer.names.len())
                 .filter(|at| offer.names[*at].to_lowercase() == lower)
                 .collect();
-            let exact: Vec<usize> = alike
-                .iter()
-                .copied()
-                .filter(|at| offer.names[*at] == *name)
-                .collect();
+            let exact: Vec<usize> =
+                alike.iter().copied().filter(|at| offer.names[*at] == *name).collect();
             match (alike.as_slice(), exact.as_slice()) {
                 ([], _) => Err(unknown()),
                 ([one], _) | (_, [one]) => Ok(*one),

@@ -22,11 +22,7 @@ struct Seen {
 
 impl Seen {
     fn new(line: u32, column: usize, cell: &str) -> Self {
-        Seen {
-            line,
-            column,
-            cell: shortened(cell),
-        }
+        Seen { line, column, cell: shortened(cell) }
     }
 }
 
@@ -50,13 +46,14 @@ pub(super) fn require_comma(
             if !wanted[column] {
                 continue;
             }
-            if cell.contains(',') && looks_numeric(cell) {
-                if parse(cell, DecimalMark::Comma).is_err() {
-                    let seen = Seen::new(line, column, cell);
-                    return Err(ambiguous(source, layout, &seen, "write it with one decimal mark"));
-                }
-                all_group &= groups_thousands(cell);
+            let has_comma = cell.contains(',');
+            if has_comma && parse(cell, DecimalMark::Comma).is_ok() {
+                all_group = all_group && groups_thousands(cell);
                 comma.get_or_insert_with(|| Seen::new(line, column, cell));
+            } else if has_comma && looks_numeric(cell) {
+                let seen = Seen::new(line, column, cell);
+                let why = "write it with one decimal mark";
+                return Err(ambiguous(source, layout, &seen, why));
             } else if cell.contains('.') && parse(cell, DecimalMark::Point).is_ok() {
                 point.get_or_insert_with(|| Seen::new(line, column, cell));
             }
@@ -88,10 +85,7 @@ pub(super) fn require_comma(
 }
 
 fn ambiguous(source: &str, layout: &Layout, seen: &Seen, why: &str) -> ReadError {
-    let problem = Problem::Ambiguous {
-        cell: seen.cell.clone(),
-        why: why.to_owned(),
-    };
+    let problem = Problem::Ambiguous { cell: seen.cell.clone(), why: why.to_owned() };
     ReadError::line(source, seen.line, problem).in_column(seen.column, &layout.names)
 }
 

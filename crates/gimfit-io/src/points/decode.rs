@@ -29,21 +29,19 @@ pub(super) fn text<'a>(
         return Err(ReadError::file(source, Problem::Binary(what)));
     }
     if memchr(0, body).is_some() {
-        let problem = if alternates_with_nul(body) {
-            Problem::Utf16
-        } else {
-            Problem::Binary("binary data")
-        };
+        let problem =
+            if alternates_with_nul(body) { Problem::Utf16 } else { Problem::Binary("binary data") };
         return Err(ReadError::file(source, problem));
     }
     let ended = strip_end_mark(body, notes);
     match std::str::from_utf8(ended) {
         Ok(text) => Ok(Cow::Borrowed(text)),
-        Err(_) if ended.iter().any(|b| is_binary_control(*b)) => Err(ReadError::file(
-            source,
-            Problem::Binary("binary data"),
-        )),
-        Err(_) => with_latin1(ended, bytes.len() - body.len(), source, titled, notes).map(Cow::Owned),
+        Err(_) if ended.iter().any(|b| is_binary_control(*b)) => {
+            Err(ReadError::file(source, Problem::Binary("binary data")))
+        }
+        Err(_) => {
+            with_latin1(ended, bytes.len() - body.len(), source, titled, notes).map(Cow::Owned)
+        }
     }
 }
 
@@ -72,20 +70,13 @@ fn binary_kind(bytes: &[u8]) -> Option<&'static str> {
         (b"\xd0\xcf\x11\xe0", "an old Office document"),
         (b"\x93NUMPY", "a NumPy array"),
     ];
-    KINDS
-        .iter()
-        .find(|(start, _)| bytes.starts_with(start))
-        .map(|(_, what)| *what)
+    KINDS.iter().find(|(start, _)| bytes.starts_with(start)).map(|(_, what)| *what)
 }
 
 fn alternates_with_nul(bytes: &[u8]) -> bool {
     let sample = &bytes[..bytes.len().min(64)];
-    let nul_at = |parity: usize| {
-        sample
-            .iter()
-            .enumerate()
-            .all(|(at, b)| (at % 2 == parity) == (*b == 0))
-    };
+    let nul_at =
+        |parity: usize| sample.iter().enumerate().all(|(at, b)| (at % 2 == parity) == (*b == 0));
     sample.len() >= 4 && (nul_at(0) || nul_at(1))
 }
 
@@ -115,10 +106,8 @@ fn with_latin1(
             Err(error) => {
                 let at = error.valid_up_to();
                 if !title_may_follow && !in_comment(line, at) {
-                    let problem = Problem::NotUtf8 {
-                        byte: skipped + start + at + 1,
-                        value: line[at],
-                    };
+                    let problem =
+                        Problem::NotUtf8 { byte: skipped + start + at + 1, value: line[at] };
                     return Err(ReadError::line(source, number, problem));
                 }
                 text.extend(line.iter().map(|b| char::from(*b)));
@@ -173,19 +162,13 @@ mod tests {
     #[test]
     fn a_byte_order_mark_is_skipped() {
         assert_eq!(read(b"\xef\xbb\xbf1 2\n", false).unwrap().0, "1 2\n");
-        assert!(matches!(
-            read(b"\xef\xbb\xbf", false).unwrap_err().problem(),
-            Problem::Empty
-        ));
+        assert!(matches!(read(b"\xef\xbb\xbf", false).unwrap_err().problem(), Problem::Empty));
     }
 
     #[test]
     fn utf_16_is_named_with_and_without_its_mark() {
         for bytes in [&b"\xff\xfe1\x00,\x00"[..], b"1\x00,\x002\x00", b"\x001\x00,\x002"] {
-            assert!(matches!(
-                read(bytes, false).unwrap_err().problem(),
-                Problem::Utf16
-            ));
+            assert!(matches!(read(bytes, false).unwrap_err().problem(), Problem::Utf16));
         }
     }
 

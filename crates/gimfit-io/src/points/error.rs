@@ -51,12 +51,7 @@ impl ReadError {
 
     /// A problem at a place.
     pub(super) fn at(source: &str, place: Place, problem: Problem) -> Self {
-        ReadError(Box::new(Inner {
-            source: source.to_owned(),
-            place,
-            column: None,
-            problem,
-        }))
+        ReadError(Box::new(Inner { source: source.to_owned(), place, column: None, problem }))
     }
 
     /// The same problem, in column `index` (from 0) of the columns `names`.
@@ -251,12 +246,8 @@ pub(super) fn shortened(cell: &str) -> String {
 /// Column names as a list for a message, cut where it grows too long.
 pub(super) fn list<S: AsRef<str>>(names: &[S]) -> String {
     const MOST: usize = 24;
-    let mut out = names
-        .iter()
-        .take(MOST)
-        .map(|name| shortened(name.as_ref()))
-        .collect::<Vec<_>>()
-        .join(", ");
+    let mut out =
+        names.iter().take(MOST).map(|name| shortened(name.as_ref())).collect::<Vec<_>>().join(", ");
     if names.len() > MOST {
         out.push_str(&format!(" and {} more", names.len() - MOST));
     }

@@ -12,11 +12,7 @@ const LIMIT: u64 = 4 << 30;
 
 /// How messages name the input at `path`.
 pub(super) fn source_name(path: &Path) -> String {
-    if is_standard_input(path) {
-        "standard input".to_owned()
-    } else {
-        path.display().to_string()
-    }
+    if is_standard_input(path) { "standard input".to_owned() } else { path.display().to_string() }
 }
 
 /// The ending of the file's name, without its dot.
@@ -28,18 +24,14 @@ pub(super) fn extension(path: &Path) -> Option<String> {
 pub(super) fn read_bytes(path: &Path, source: &str) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
     let read = if is_standard_input(path) {
-        std::io::stdin()
-            .lock()
-            .take(LIMIT + 1)
-            .read_to_end(&mut bytes)
+        std::io::stdin().lock().take(LIMIT + 1).read_to_end(&mut bytes)
     } else {
         File::open(path).and_then(|file| file.take(LIMIT + 1).read_to_end(&mut bytes))
     };
     match read {
-        Ok(_) if bytes.len() as u64 > LIMIT => Err(ReadError::file(
-            source,
-            Problem::TooLong { limit: LIMIT },
-        )),
+        Ok(_) if bytes.len() as u64 > LIMIT => {
+            Err(ReadError::file(source, Problem::TooLong { limit: LIMIT }))
+        }
         Ok(_) => Ok(bytes),
         Err(error) if error.kind() == ErrorKind::NotFound => {
             Err(ReadError::file(source, Problem::NotFound))

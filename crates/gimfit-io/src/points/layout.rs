@@ -47,15 +47,14 @@ pub(super) fn find(
 ) -> Result<Layout, ReadError> {
     let mut first_rows = first_two(rows, source)?.into_iter();
     let no_rows = |why: String| ReadError::file(source, Problem::NoRows(why));
-    let first = first_rows
-        .next()
-        .ok_or_else(|| no_rows("every line is blank or a comment".to_owned()))?;
+    let first =
+        first_rows.next().ok_or_else(|| no_rows("every line is blank or a comment".to_owned()))?;
     if !is_header(&first, first_rows.as_slice().first()) {
         return Ok(without_header(&first, rows.separator, notes));
     }
-    let second = first_rows.next().ok_or_else(|| {
-        no_rows(format!("there is only line {}, a header", first.line))
-    })?;
+    let second = first_rows
+        .next()
+        .ok_or_else(|| no_rows(format!("there is only line {}, a header", first.line)))?;
     Ok(with_header(first, &second, rows.separator, notes))
 }
 
@@ -105,11 +104,7 @@ fn with_header(header: Row, row: &Row, separator: Delimiter, notes: &mut Vec<Str
     let (wide, row_wide) = (header.cells.len(), row.cells.len());
     let ends_separated = row_ends && (row_wide == wide + 1 || (header_ends && row_wide == wide));
     let header_alone = header_ends && row_wide + 1 == wide;
-    let width = if (ends_separated && row_wide == wide) || header_alone {
-        wide - 1
-    } else {
-        wide
-    };
+    let width = if (ends_separated && row_wide == wide) || header_alone { wide - 1 } else { wide };
     if ends_separated {
         note_ends(notes);
     }
@@ -161,10 +156,7 @@ fn texts(row: &Row, width: usize) -> Vec<bool> {
 fn first_two(rows: &Rows<'_>, source: &str) -> Result<Vec<Row>, ReadError> {
     let mut found: Vec<Row> = Vec::new();
     rows.visit(|line, cells| {
-        let cells: Vec<String> = cells
-            .take(MOST_COLUMNS + 2)
-            .map(str::to_owned)
-            .collect();
+        let cells: Vec<String> = cells.take(MOST_COLUMNS + 2).map(str::to_owned).collect();
         if cells.len() > MOST_COLUMNS + 1 {
             let problem = Problem::Malformed(format!(
                 "there are more than {MOST_COLUMNS} cells on one line; write one point per line"
@@ -194,9 +186,8 @@ impl Layout {
             None => format!("line {}", self.set_by),
         };
         // A title above blank-separated numbers reads as a header.
-        let titled = self.header.is_some()
-            && separator == Delimiter::Blanks
-            && line == self.first_line;
+        let titled =
+            self.header.is_some() && separator == Delimiter::Blanks && line == self.first_line;
         let advice = match titled {
             true => format!(
                 "correct the row, or put # before line {} if it is a title (of an airfoil: read \

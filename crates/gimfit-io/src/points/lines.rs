@@ -35,11 +35,8 @@ impl<'a> Iterator for Lines<'a> {
             return None;
         }
         let bytes = self.rest.as_bytes();
-        let end = if self.has_returns {
-            memchr2(b'\n', b'\r', bytes)
-        } else {
-            memchr(b'\n', bytes)
-        };
+        let end =
+            if self.has_returns { memchr2(b'\n', b'\r', bytes) } else { memchr(b'\n', bytes) };
         let (line, rest) = match end {
             None => (self.rest, ""),
             Some(end) => {
@@ -102,22 +99,12 @@ impl LineRules {
             [b';', ..] if self.semicolon_comments => return Kind::Comment,
             _ => {}
         }
-        let content = if self.tabs_separate {
-            line.trim_matches(' ')
-        } else {
-            trimmed
-        };
+        let content = if self.tabs_separate { line.trim_matches(' ') } else { trimmed };
         if !self.has_hash {
-            return Kind::Content {
-                text: content,
-                commented: false,
-            };
+            return Kind::Content { text: content, commented: false };
         }
         match comment_start(content) {
-            None => Kind::Content {
-                text: content,
-                commented: false,
-            },
+            None => Kind::Content { text: content, commented: false },
             Some(at) => {
                 let kept = &content[..at];
                 Kind::Content {
@@ -138,9 +125,10 @@ fn comment_start(content: &str) -> Option<usize> {
     let bytes = content.as_bytes();
     let mut quoted = false;
     for at in memchr2_iter(b'#', b'"', bytes) {
+        let after_letter = at > 0 && bytes[at - 1].is_ascii_alphabetic();
         if bytes[at] == b'"' {
             quoted = !quoted;
-        } else if !quoted && !(at > 0 && bytes[at - 1].is_ascii_alphabetic()) {
+        } else if !(quoted || after_letter) {
             return Some(at);
         }
     }
@@ -151,11 +139,8 @@ fn comment_start(content: &str) -> Option<usize> {
 mod tests {
     use super::*;
 
-    const PLAIN: LineRules = LineRules {
-        semicolon_comments: true,
-        tabs_separate: false,
-        has_hash: true,
-    };
+    const PLAIN: LineRules =
+        LineRules { semicolon_comments: true, tabs_separate: false, has_hash: true };
 
     fn content(line: &str) -> Option<&str> {
         match PLAIN.kind(line) {
@@ -167,10 +152,7 @@ mod tests {
     #[test]
     fn all_three_line_ends_count_alike() {
         let lines: Vec<_> = Lines::new("a\nb\r\nc\rd\n\ne").collect();
-        assert_eq!(
-            lines,
-            [(1, "a"), (2, "b"), (3, "c"), (4, "d"), (5, ""), (6, "e")]
-        );
+        assert_eq!(lines, [(1, "a"), (2, "b"), (3, "c"), (4, "d"), (5, ""), (6, "e")]);
     }
 
     #[test]
@@ -179,10 +161,7 @@ mod tests {
             assert_eq!(PLAIN.kind(line), Kind::Comment, "{line}");
         }
         assert_eq!(PLAIN.kind(" \t"), Kind::Blank);
-        let separated = LineRules {
-            semicolon_comments: false,
-            ..PLAIN
-        };
+        let separated = LineRules { semicolon_comments: false, ..PLAIN };
         assert!(matches!(separated.kind(";1"), Kind::Content { .. }));
     }
 
@@ -196,16 +175,7 @@ mod tests {
 
     #[test]
     fn leading_and_closing_tabs_stay_where_tabs_separate() {
-        let tabs = LineRules {
-            tabs_separate: true,
-            ..PLAIN
-        };
-        assert_eq!(
-            tabs.kind(" \t1\t"),
-            Kind::Content {
-                text: "\t1\t",
-                commented: false
-            }
-        );
+        let tabs = LineRules { tabs_separate: true, ..PLAIN };
+        assert_eq!(tabs.kind(" \t1\t"), Kind::Content { text: "\t1\t", commented: false });
     }
 }

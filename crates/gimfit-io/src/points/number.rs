@@ -26,13 +26,31 @@ pub(super) enum Fault {
 /// The number in `cell`, which is trimmed.
 #[inline]
 pub(super) fn parse(cell: &str, mark: DecimalMark) -> Result<f64, Fault> {
-    if mark == DecimalMark::Point
-        && let Ok(value) = cell.parse::<f64>()
-        && value.is_finite()
-    {
-        return Ok(value);
+    let plain = match mark {
+        DecimalMark::Point => cell.parse().ok(),
+        DecimalMark::Comma => short_with_comma(cell),
+    };
+    match plain {
+        Some(value) if f64::is_finite(value) => Ok(value),
+        _ => parse_other(cell, mark),
     }
-    parse_other(cell, mark)
+}
+
+/// The number in a cell of ordinary length with one comma or none, without an
+/// allocation: files with decimal commas have millions of them.
+fn short_with_comma(cell: &str) -> Option<f64> {
+    let mut buffer = [0_u8; 32];
+    let copy = buffer.get_mut(..cell.len())?;
+    copy.copy_from_slice(cell.as_bytes());
+    // Two commas become two points, which is no number.
+    for byte in copy.iter_mut() {
+        *byte = match *byte {
+            b',' => b'.',
+            b'.' => return None,
+            other => other,
+        };
+    }
+    std::str::from_utf8(copy).ok()?.parse().ok()
 }
 
 /// Everything but the plain case, kept apart so that the plain case inlines.
@@ -77,10 +95,7 @@ fn fortran(cell: &str) -> Option<f64> {
 /// Whether a cell is meant as a number, readable or not: then the line it
 /// stands in is no header, and a fault in it is the file's.
 pub(super) fn looks_numeric(cell: &str) -> bool {
-    if matches!(
-        parse(cell, DecimalMark::Point),
-        Ok(_) | Err(Fault::NotFinite | Fault::TooLarge)
-    ) {
+    if matches!(parse(cell, DecimalMark::Point), Ok(_) | Err(Fault::NotFinite | Fault::TooLarge)) {
         return true;
     }
     let start = cell.trim_start_matches(['+', '-', '.', ',']);
@@ -101,9 +116,7 @@ pub(super) fn is_text(cell: &str) -> bool {
 
 /// Whether `cell`, read as zero, was written as something else.
 pub(super) fn vanished(cell: &str) -> bool {
-    cell.bytes()
-        .take_while(|b| !b.is_ascii_alphabetic())
-        .any(|b| matches!(b, b'1'..=b'9'))
+    cell.bytes().take_while(|b| !b.is_ascii_alphabetic()).any(|b| matches!(b, b'1'..=b'9'))
 }
 
 #[cfg(test)]

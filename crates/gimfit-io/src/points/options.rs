@@ -33,10 +33,7 @@ pub struct UnknownChoice {
 }
 
 fn unknown(given: &str, wanted: &'static str) -> UnknownChoice {
-    UnknownChoice {
-        given: given.to_owned(),
-        wanted,
-    }
+    UnknownChoice { given: given.to_owned(), wanted }
 }
 
 /// A format to read a file as.
@@ -178,10 +175,7 @@ impl FromStr for DecimalMark {
         match given.to_ascii_lowercase().as_str() {
             "." | "point" => Ok(DecimalMark::Point),
             "," | "comma" => Ok(DecimalMark::Comma),
-            _ => Err(unknown(
-                given,
-                "a decimal mark; the decimal marks are point and comma",
-            )),
+            _ => Err(unknown(given, "a decimal mark; the decimal marks are point and comma")),
         }
     }
 }

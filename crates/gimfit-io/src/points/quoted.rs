@@ -7,7 +7,7 @@
 
 use std::ops::ControlFlow;
 
-use memchr::memchr_iter;
+use memchr::{memchr_iter, memchr2};
 
 use super::error::{Problem, ReadError};
 use super::lines::{Kind, LineRules, Lines};
@@ -28,14 +28,14 @@ impl Quoted {
         rules: LineRules,
         source: &str,
     ) -> Result<Self, ReadError> {
-        let mut copy = String::with_capacity(text.len() + 1);
+        let mut copy =
+            Copy { text: String::with_capacity(text.len() + 1), separator, opened: None, source };
         let mut skipped = Skipped::default();
-        let mut opened: Option<u32> = None;
         let mut rows = 0_usize;
         let mut blanks = 0;
         for (number, line) in Lines::new(text) {
-            if opened.is_some() {
-                opened = copy_content(line, separator, opened, number, &mut copy);
+            if copy.opened.is_some() {
+                copy.content(line, number)?;
             } else {
                 match rules.kind(line) {
                     Kind::Blank => blanks += 1,
@@ -47,21 +47,16 @@ impl Quoted {
                         blanks = 0;
                         rows += 1;
                         skipped.comments_after_rows += usize::from(commented);
-                        opened = copy_content(text, separator, None, number, &mut copy);
+                        copy.content(text, number)?;
                     }
                 }
             }
-            copy.push('\n');
+            copy.text.push('\n');
         }
-        if let Some(line) = opened {
-            return Err(ReadError::line(source, line, Problem::UnclosedQuote));
+        if let Some(opened) = copy.opened {
+            return Err(ReadError::line(source, opened.line, Problem::UnclosedQuote));
         }
-        Ok(Quoted {
-            text: copy,
-            separator,
-            skipped,
-            source: source.to_owned(),
-        })
+        Ok(Quoted { text: copy.text, separator, skipped, source: source.to_owned() })
     }
 
     /// As `Rows::visit`.
@@ -106,33 +101,66 @@ impl Quoted {
     }
 }
 
-/// Appends one line, without the blanks between a separator and a quotation
-/// mark: with them the crate would take the mark as part of the cell. Returns
-/// the line of a quotation mark still open at the end.
-fn copy_content(
-    line: &str,
+/// The copy while it is made.
+struct Copy<'s> {
+    text: String,
     separator: u8,
-    mut opened: Option<u32>,
-    number: u32,
-    copy: &mut String,
-) -> Option<u32> {
-    let mut rest = line;
-    while let Some(at) = memchr::memchr2(b'"', separator, rest.as_bytes()) {
-        let (before, after) = rest.split_at(at + 1);
-        copy.push_str(before);
-        rest = after;
-        if before.ends_with('"') {
-            opened = match opened {
-                None => Some(number),
-                Some(_) => None,
-            };
-        } else if opened.is_none() {
-            let unpadded = rest.trim_start_matches(' ');
-            if unpadded.starts_with('"') {
-                rest = unpadded;
+    opened: Option<Opened>,
+    source: &'s str,
+}
+
+/// A quotation mark not yet closed.
+#[derive(Clone, Copy)]
+struct Opened {
+    line: u32,
+    /// Whether it stands first in its cell and so quotes the cell.
+    first: bool,
+}
+
+impl Copy<'_> {
+    /// Appends one line, without the blanks between a separator and a
+    /// quotation mark: with them the crate would take the mark as part of the
+    /// cell.
+    fn content(&mut self, line: &str, number: u32) -> Result<(), ReadError> {
+        let mut rest = line;
+        let mut cell_starts = self.opened.is_none();
+        while let Some(at) = memchr2(b'"', self.separator, rest.as_bytes()) {
+            let (before, after) = rest.split_at(at + 1);
+            self.text.push_str(before);
+            rest = after;
+            if before.ends_with('"') {
+                self.opened = match self.opened {
+                    None => Some(Opened { line: number, first: cell_starts && at == 0 }),
+                    Some(opened) => {
+                        self.check_closed(opened, rest, number)?;
+                        None
+                    }
+                };
+                cell_starts = false;
+            } else if self.opened.is_none() {
+                cell_starts = true;
+                let unpadded = rest.trim_start_matches(' ');
+                if unpadded.starts_with('"') {
+                    rest = unpadded;
+                }
             }
         }
+        self.text.push_str(rest);
+        Ok(())
     }
-    copy.push_str(rest);
-    opened
+
+    /// The crate would join what follows a quoted cell to it: `"1"2` as 12.
+    fn check_closed(&mut self, opened: Opened, rest: &str, number: u32) -> Result<(), ReadError> {
+        let next = rest.trim_start_matches(' ').bytes().next();
+        let ends = next.is_none_or(|b| b == self.separator) || rest.starts_with('"');
+        if ends || !opened.first {
+            return Ok(());
+        }
+        let problem = Problem::Malformed(
+            "text follows the closing quotation mark of a cell; put a separator between them, or \
+             double a quotation mark that belongs to the cell"
+                .to_owned(),
+        );
+        Err(ReadError::line(self.source, number, problem))
+    }
 }

@@ -35,7 +35,11 @@ pub(super) struct Skipped {
 }
 
 impl<'a> Rows<'a> {
-    pub(super) fn new(text: &'a str, separator: Delimiter, source: &str) -> Result<Self, ReadError> {
+    pub(super) fn new(
+        text: &'a str,
+        separator: Delimiter,
+        source: &str,
+    ) -> Result<Self, ReadError> {
         let rules = LineRules {
             semicolon_comments: separator != Delimiter::Semicolon,
             tabs_separate: separator == Delimiter::Tab,
@@ -46,13 +50,7 @@ impl<'a> Rows<'a> {
             Some(byte) if may_be_quoted => Some(Quoted::new(text, byte, rules, source)?),
             _ => None,
         };
-        Ok(Rows {
-            separator,
-            may_be_quoted,
-            text,
-            rules,
-            quoted,
-        })
+        Ok(Rows { separator, may_be_quoted, text, rules, quoted })
     }
 
     /// Calls `visitor` with the line number and the cells of each row, until
@@ -80,14 +78,8 @@ impl<'a> Rows<'a> {
                     rows += 1;
                     skipped.comments_after_rows += usize::from(commented);
                     let cells = match separator {
-                        Some(separator) => Cells::Separated {
-                            rest: Some(text),
-                            separator,
-                        },
-                        None => Cells::Blanks {
-                            rest: text,
-                            may_be_quoted: self.may_be_quoted,
-                        },
+                        Some(separator) => Cells::Separated { rest: Some(text), separator },
+                        None => Cells::Blanks { rest: text, may_be_quoted: self.may_be_quoted },
                     };
                     if visitor(number, cells)?.is_break() {
                         break;
@@ -148,10 +140,7 @@ impl<'r> Iterator for Cells<'r> {
                 };
                 Some(cell.trim_ascii())
             }
-            Cells::Blanks {
-                rest,
-                may_be_quoted,
-            } => next_between_blanks(rest, *may_be_quoted),
+            Cells::Blanks { rest, may_be_quoted } => next_between_blanks(rest, *may_be_quoted),
             Cells::Record(cells) => cells.next().map(str::trim_ascii),
         }
     }
@@ -171,10 +160,7 @@ fn next_between_blanks<'r>(rest: &mut &'r str, may_be_quoted: bool) -> Option<&'
         *rest = &inner[end + 1..];
         return Some(inner[..end].trim_ascii());
     }
-    let end = text
-        .bytes()
-        .position(|b| b.is_ascii_whitespace())
-        .unwrap_or(text.len());
+    let end = text.bytes().position(|b| b.is_ascii_whitespace()).unwrap_or(text.len());
     *rest = &text[end..];
     Some(&text[..end])
 }
@@ -183,13 +169,7 @@ fn next_between_blanks<'r>(rest: &mut &'r str, may_be_quoted: bool) -> Option<&'
 /// quotation marks across lines.
 pub(super) fn plain_cells(line: &str, separator: Delimiter) -> Cells<'_> {
     match separator_byte(separator) {
-        Some(separator) => Cells::Separated {
-            rest: Some(line),
-            separator,
-        },
-        None => Cells::Blanks {
-            rest: line,
-            may_be_quoted: true,
-        },
+        Some(separator) => Cells::Separated { rest: Some(line), separator },
+        None => Cells::Blanks { rest: line, may_be_quoted: true },
     }
 }

@@ -23,9 +23,8 @@ pub(super) fn find(text: &str, extension: &str, options: &ReadOptions) -> Delimi
     if options.format == Some(FormatChoice::Tsv) {
         return Delimiter::Tab;
     }
-    let (lines, comments): (Vec<&str>, Vec<&str>) = sample(text)
-        .into_iter()
-        .partition(|line| !line.starts_with(';'));
+    let (lines, comments): (Vec<&str>, Vec<&str>) =
+        sample(text).into_iter().partition(|line| !line.starts_with(';'));
     let csv_asked = options.format == Some(FormatChoice::Csv);
     // A row may open with an empty cell, but not every row does.
     if semicolons(if lines.is_empty() { &comments } else { &lines }) {
@@ -58,9 +57,8 @@ fn sample(text: &str) -> Vec<&str> {
         })
         .take(SAMPLE)
         .map(|line| {
-            let end = (0..=line.len().min(LINE_SAMPLE))
-                .rev()
-                .find(|end| line.is_char_boundary(*end));
+            let end =
+                (0..=line.len().min(LINE_SAMPLE)).rev().find(|end| line.is_char_boundary(*end));
             &line[..end.unwrap_or(0)]
         })
         .collect()
@@ -72,11 +70,8 @@ fn semicolons(lines: &[&str]) -> bool {
 }
 
 fn tabs(lines: &[&str], named_tsv: bool) -> bool {
-    let with: Vec<&str> = lines
-        .iter()
-        .copied()
-        .filter(|line| outside_quotes(line, b'\t'))
-        .collect();
+    let with: Vec<&str> =
+        lines.iter().copied().filter(|line| outside_quotes(line, b'\t')).collect();
     if named_tsv {
         return !with.is_empty();
     }
@@ -91,11 +86,8 @@ fn tabs(lines: &[&str], named_tsv: bool) -> bool {
         })
     });
     // A column empty on every line: two tabs in a row are one gap.
-    let widest = with
-        .iter()
-        .map(|line| plain_cells(line, Delimiter::Tab).count())
-        .max()
-        .unwrap_or(0);
+    let widest =
+        with.iter().map(|line| plain_cells(line, Delimiter::Tab).count()).max().unwrap_or(0);
     let mut filled = vec![false; widest];
     for line in &with {
         for (at, cell) in plain_cells(line, Delimiter::Tab).enumerate() {
@@ -107,20 +99,15 @@ fn tabs(lines: &[&str], named_tsv: bool) -> bool {
 }
 
 fn commas(lines: &[&str]) -> bool {
-    let with: Vec<&str> = lines
-        .iter()
-        .copied()
-        .filter(|line| outside_quotes(line, b','))
-        .collect();
+    let with: Vec<&str> = lines.iter().copied().filter(|line| outside_quotes(line, b',')).collect();
     holds_in_half(lines, with.len()) && !with.iter().any(|line| has_decimal_commas(line))
 }
 
 /// Whether the commas of a line can only be decimal marks between blanks: some
 /// part between commas holds two numbers, and every part between blanks is one.
 fn has_decimal_commas(line: &str) -> bool {
-    let number_with_comma = |part: &str| {
-        looks_numeric(part) && !part.starts_with(',') && !part.ends_with(',')
-    };
+    let number_with_comma =
+        |part: &str| looks_numeric(part) && !part.starts_with(',') && !part.ends_with(',');
     let two_numbers = plain_cells(line, Delimiter::Comma).any(|cell| {
         let mut parts = cell.split_ascii_whitespace();
         parts.next().is_some_and(looks_numeric) && parts.next().is_some_and(looks_numeric)

@@ -83,15 +83,10 @@ pub(super) fn read(
 /// The columns of the table, and those taken when nobody chooses.
 fn usual<'a>(layout: &'a Layout, xyz: bool, options: &ReadOptions) -> Offer<'a> {
     let named = layout.header.is_some();
-    let offer = |usual, why| Offer {
-        names: &layout.names,
-        named,
-        usual,
-        why,
-    };
+    let offer = |usual, why| Offer { names: &layout.names, named, usual, why };
     let one = |name: &str| {
-        let mut found = (0..layout.names.len())
-            .filter(|at| layout.names[*at].eq_ignore_ascii_case(name));
+        let mut found =
+            (0..layout.names.len()).filter(|at| layout.names[*at].eq_ignore_ascii_case(name));
         found.next().filter(|_| found.next().is_none())
     };
     if let (true, Some(x), Some(y)) = (named, one("x"), one("y")) {
@@ -160,10 +155,8 @@ impl Reader<'_> {
         if let Some(column) = self.selection.abscissa {
             slots[column].abscissa = true;
         }
-        let mut out = Columns {
-            abscissa: self.selection.abscissa.map(|_| Vec::new()),
-            ..Columns::default()
-        };
+        let mut out =
+            Columns { abscissa: self.selection.abscissa.map(|_| Vec::new()), ..Columns::default() };
         let skipped = self.rows.visit(|line, cells| {
             if Some(line) != self.layout.header {
                 self.row(line, cells, mark, &slots, &mut out)?;
@@ -184,8 +177,7 @@ impl Reader<'_> {
         out: &mut Columns,
     ) -> Result<(), Stop> {
         let start = out.coordinates.len();
-        out.coordinates
-            .resize(start + self.selection.coordinates.len(), 0.0);
+        out.coordinates.resize(start + self.selection.coordinates.len(), 0.0);
         let mut count = 0;
         let mut last = "";
         let mut fault = None;
@@ -229,7 +221,9 @@ impl Reader<'_> {
                 out.lines.push(line);
                 Ok(())
             }
-            Some((_, cell, Fault::NotANumber)) if self.may_switch && cell.contains(',') && mark == DecimalMark::Point => {
+            Some((_, cell, Fault::NotANumber))
+                if self.may_switch && cell.contains(',') && mark == DecimalMark::Point =>
+            {
                 Err(Stop::Comma)
             }
             Some((column, cell, found)) => {
@@ -252,12 +246,11 @@ impl Reader<'_> {
                 why: "it holds more than one decimal mark; write it with one".to_owned(),
             },
             Fault::Empty => Problem::EmptyCell {
-                advice: self.advice(column, "fill it in or remove the row", mark),
+                advice: self.advice(column, "fill it in, remove the row", mark),
             },
-            Fault::NotANumber => Problem::NotANumber {
-                cell,
-                advice: self.advice(column, "remove the row", mark),
-            },
+            Fault::NotANumber => {
+                Problem::NotANumber { cell, advice: self.advice(column, "remove the row", mark) }
+            }
         }
     }
 
@@ -294,11 +287,7 @@ impl Reader<'_> {
 }
 
 fn note_skipped(columns: &Columns, notes: &mut Vec<String>) {
-    let Skipped {
-        comment_lines,
-        comments_after_rows,
-        blank_lines_between,
-    } = columns.skipped;
+    let Skipped { comment_lines, comments_after_rows, blank_lines_between } = columns.skipped;
     let skipped = |count| if count == 1 { "was" } else { "were" };
     if comment_lines > 0 {
         notes.push(format!(

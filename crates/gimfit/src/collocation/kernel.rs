@@ -209,14 +209,8 @@ fn eliminate_row<const B: usize, const A: usize>(
         }
     }
     band[below] = band[below].recip();
-    let lower = &mut lower[j * below..][..below];
-    for k in 0..below {
-        lower[k] = band[k];
-    }
-    let upper = &mut upper[j * wide..][..wide];
-    for k in 0..wide {
-        upper[k] = band[below + k];
-    }
+    lower[j * below..][..below].copy_from_slice(&band[..below]);
+    upper[j * wide..][..wide].copy_from_slice(&band[below..]);
     band[below].is_finite()
 }
 

@@ -124,10 +124,6 @@ pub fn fit_curve_observed<'a>(
     fit.report.knot_placement = placement_name(&placement);
     choices.append(&mut fit.report.choices);
     fit.report.choices = choices;
-    if let Some(kept) = &cleaned.kept {
-        fit.report.max_residual_index = kept[fit.report.max_residual_index];
-        fit.report.max_deviation_index = kept[fit.report.max_deviation_index];
-    }
     fit.kept_points = cleaned.kept;
     Ok(fit)
 }

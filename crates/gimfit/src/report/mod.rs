@@ -35,13 +35,13 @@ pub struct CurveReport {
     pub extent: f64,
     /// Largest norm of a difference vector.
     pub max_residual: f64,
-    /// The point where it is met, in the caller's numbering.
+    /// The point where it is met, counted among the points fitted.
     pub max_residual_index: usize,
     /// Root mean square of the norms.
     pub rms_residual: f64,
     /// Largest distance of a data point from its foot point on the curve.
     pub max_deviation: f64,
-    /// The point where it is met, in the caller's numbering.
+    /// The point where it is met, counted among the points fitted.
     pub max_deviation_index: usize,
     /// Smallest eigenvalue of the collocation matrix, where the method asked for it.
     pub smallest_eigenvalue: Option<f64>,

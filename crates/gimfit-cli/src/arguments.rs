@@ -1,0 +1,316 @@
+//! What can be typed, as clap reads it. Values that mean one of several things, such as a rule or a
+//! file, are told apart here.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use gimfit::Duplicates;
+use gimfit_io::points::{ColumnChoice, DecimalMark, Delimiter, FormatChoice, PartChoice};
+use std::convert::Infallible;
+use std::path::PathBuf;
+use std::str::FromStr;
+
+/// Fits smooth B-spline curves to measured points by geometric iteration: control points start at
+/// the data and move by the difference between the data and the curve until the curve passes
+/// through them.
+#[derive(Debug, Parser)]
+#[command(name = "gimfit", version, propagate_version = true, max_term_width = 100)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Fit a curve through the points of a file
+    Curve(Box<CurveArguments>),
+    /// Sample a fitted curve
+    Evaluate(EvaluateArguments),
+    /// Tell what a file holds
+    Info(InfoArguments),
+    /// Recompute published tables and show them beside the paper
+    Reproduce(ReproduceArguments),
+    /// Print a completion script for a shell
+    Completions(CompletionsArguments),
+    /// Write the manual pages
+    Manual(ManualArguments),
+}
+
+/// How points are read.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Reading")]
+pub(crate) struct InputArguments {
+    /// File of points: CSV, TSV, plain text, XYZ, airfoil .dat, GPX, NumPy .npy; - for standard
+    /// input
+    #[arg(value_name = "POINTS")]
+    pub(crate) points: PathBuf,
+
+    /// Columns to take as coordinates, by name or by number from 1, such as x,y or 2,3
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    pub(crate) columns: Vec<ColumnChoice>,
+
+    /// Column that holds the parameter of each point, by name or number
+    #[arg(long, value_name = "COLUMN")]
+    pub(crate) abscissa: Option<ColumnChoice>,
+
+    /// What separates the cells of a text file, where it cannot be told from the content
+    /// (comma, semicolon, tab, blanks)
+    #[arg(long, value_name = "SEPARATOR")]
+    pub(crate) delimiter: Option<Delimiter>,
+
+    /// Decimal mark of a text file, where it cannot be told from the content: point or comma
+    #[arg(long, value_name = "MARK")]
+    pub(crate) decimal: Option<DecimalMark>,
+
+    /// Format of the file, where its ending and its content mislead: text, csv, tsv, xyz, airfoil,
+    /// gpx, npy
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) format: Option<FormatChoice>,
+
+    /// Which piece of a file in several pieces, by number from 1, or all of them one after another
+    #[arg(long, value_name = "N|all")]
+    pub(crate) part: Option<PartChoice>,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Exit status: 0 done; 1 a residual was not reached (the best fit is written \
+all the same); 2 wrong usage or input, nothing written.
+
+Examples:
+  gimfit curve airfoil.dat -o airfoil.svg
+  gimfit curve coast.csv --closed -o coast.json -o coast.png
+  gimfit curve track.gpx --columns east,north,up --method pia --keep 0,2,4,15,30 -o track.svg
+  gimfit curve signal.csv --abscissa x -o signal.json"
+)]
+pub(crate) struct CurveArguments {
+    #[command(flatten)]
+    pub(crate) input: InputArguments,
+
+    /// File to write; by its ending a document (.json), control points or samples (.csv), or a
+    /// picture (.svg, .png). May be given several times; - writes the document to standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Vec<PathBuf>,
+
+    /// Degree of the curve
+    #[arg(long, default_value_t = 3, value_name = "P", help_heading = "Curve")]
+    pub(crate) degree: usize,
+
+    /// Close the curve smoothly; the first point may be repeated at the end or not
+    #[arg(long, help_heading = "Curve")]
+    pub(crate) closed: bool,
+
+    /// Parameters of the points: chord, centripetal, uniform, chord-ratio (closed quadratic curves)
+    /// or a file of numbers [default: chord; uniform for values of dimension 1]
+    #[arg(long, value_name = "RULE|FILE", help_heading = "Curve")]
+    pub(crate) parameters: Option<RuleOrFile<ParameterRule>>,
+
+    /// Period of a closed curve over an abscissa, or over parameters from a file, where the point
+    /// at which it closes is not listed
+    #[arg(long, value_name = "T", requires = "closed", help_heading = "Curve")]
+    pub(crate) period: Option<f64>,
+
+    /// Knots: averaged, not-a-knot (odd degrees), at-data (odd degrees; tied ends), uniform, or a
+    /// file of numbers [default: averaged]
+    #[arg(long, value_name = "RULE|FILE", help_heading = "Curve")]
+    pub(crate) knots: Option<RuleOrFile<KnotRule>>,
+
+    /// What to do with points that repeat their predecessor
+    #[arg(
+        long,
+        value_enum,
+        default_value = "error",
+        value_name = "POLICY",
+        help_heading = "Curve"
+    )]
+    pub(crate) duplicates: DuplicatesChoice,
+
+    /// Sort the points by their abscissa first
+    #[arg(long, requires = "abscissa", help_heading = "Curve")]
+    pub(crate) sort: bool,
+
+    /// Rule that moves the control points
+    #[arg(
+        long,
+        value_enum,
+        default_value = "auto",
+        value_name = "METHOD",
+        help_heading = "Iteration"
+    )]
+    pub(crate) method: MethodChoice,
+
+    /// Weight for weighted and sor: auto (the best one), a number between 0 and 2, or for weighted
+    /// a file of one number per point
+    #[arg(long, default_value = "auto", value_name = "W|auto|FILE", help_heading = "Iteration")]
+    pub(crate) weight: String,
+
+    /// Half bandwidth kept by the preconditioned method [default: the whole band]
+    #[arg(long, value_name = "Q", help_heading = "Iteration")]
+    pub(crate) bandwidth: Option<usize>,
+
+    /// Most iterations
+    #[arg(long, default_value_t = 1000, value_name = "N", help_heading = "Iteration")]
+    pub(crate) iterations: usize,
+
+    /// Largest residual to reach, in the unit of the points; 0 runs all iterations [default: 1e-12
+    /// of the extent, or what rounding allows]
+    #[arg(long, value_name = "T", help_heading = "Iteration")]
+    pub(crate) residual: Option<f64>,
+
+    /// Iterations whose fits are kept, such as 0,2,4,15,30
+    #[arg(long, value_name = "LIST", value_delimiter = ',', help_heading = "Iteration")]
+    pub(crate) keep: Vec<usize>,
+
+    /// Samples written to .csv files instead of control points
+    #[arg(long, value_name = "N", help_heading = "Writing")]
+    pub(crate) samples: Option<usize>,
+
+    /// File for the report: .json, otherwise text
+    #[arg(long, value_name = "FILE", help_heading = "Writing")]
+    pub(crate) report: Option<PathBuf>,
+
+    /// Print nothing but errors and warnings
+    #[arg(long, short, help_heading = "Writing")]
+    pub(crate) quiet: bool,
+
+    /// Print the document instead of the report, without the geometry
+    #[arg(long, help_heading = "Writing")]
+    pub(crate) json: bool,
+
+    /// With --json: print geometry, parameters and kept fits too
+    #[arg(long, requires = "json", help_heading = "Writing")]
+    pub(crate) geometry: bool,
+}
+
+/// A named rule, or a file that gives the numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum RuleOrFile<R> {
+    Rule(R),
+    File(PathBuf),
+}
+
+impl<R: ValueEnum> FromStr for RuleOrFile<R> {
+    type Err = Infallible;
+
+    /// A rule's name is that rule; write ./chord for a file called so.
+    fn from_str(text: &str) -> Result<Self, Infallible> {
+        Ok(R::from_str(text, false).map_or_else(|_| Self::File(text.into()), Self::Rule))
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ParameterRule {
+    Chord,
+    Centripetal,
+    Uniform,
+    ChordRatio,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum KnotRule {
+    Averaged,
+    NotAKnot,
+    AtData,
+    Uniform,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DuplicatesChoice {
+    /// Refuse the data, naming the rows
+    Error,
+    /// Keep the first of each run
+    Drop,
+    /// Replace each run by its mean
+    Merge,
+}
+
+impl From<DuplicatesChoice> for Duplicates {
+    fn from(choice: DuplicatesChoice) -> Self {
+        match choice {
+            DuplicatesChoice::Error => Self::Error,
+            DuplicatesChoice::Drop => Self::Drop,
+            DuplicatesChoice::Merge => Self::Merge,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum MethodChoice {
+    /// Rounding level quickly on any spacing
+    Auto,
+    /// Plain progressive-iterative approximation
+    Pia,
+    /// Difference vectors times a weight
+    Weighted,
+    /// Difference vectors over the diagonal
+    Jacobi,
+    /// Each control point sees those moved before
+    GaussSeidel,
+    /// Gauss-Seidel, over-relaxed
+    Sor,
+    /// Three-term recurrence
+    Chebyshev,
+    /// Preconditioned by the band
+    Preconditioned,
+}
+
+#[derive(Debug, Args)]
+#[command(group(clap::ArgGroup::new("where").required(true).args(["samples", "at"])))]
+pub(crate) struct EvaluateArguments {
+    /// Document of a fitted curve (.json); - for standard input
+    #[arg(value_name = "FILE")]
+    pub(crate) document: PathBuf,
+
+    /// Number of samples at equal steps of the parameter, both ends included
+    #[arg(long, value_name = "N")]
+    pub(crate) samples: Option<usize>,
+
+    /// File of parameters to evaluate at; - for standard input
+    #[arg(long, value_name = "FILE")]
+    pub(crate) at: Option<PathBuf>,
+
+    /// Derivatives to add, up to this order
+    #[arg(long, default_value_t = 0, value_name = "K")]
+    pub(crate) derivatives: usize,
+
+    /// Evaluate the fit kept at this iteration instead of the final one
+    #[arg(long, value_name = "N")]
+    pub(crate) iteration: Option<usize>,
+
+    /// File to write, .csv or .json [default: CSV on standard output]
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct InfoArguments {
+    #[command(flatten)]
+    pub(crate) input: InputArguments,
+
+    /// Print as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ReproduceArguments {
+    /// Tables to recompute, such as wang2007; all if none is named
+    #[arg(value_name = "TABLE")]
+    pub(crate) tables: Vec<String>,
+
+    /// List the tables
+    #[arg(long)]
+    pub(crate) list: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CompletionsArguments {
+    /// Shell
+    #[arg(value_enum)]
+    pub(crate) shell: clap_complete::Shell,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ManualArguments {
+    /// Folder for the pages, one per command
+    #[arg(value_name = "FOLDER")]
+    pub(crate) folder: PathBuf,
+}

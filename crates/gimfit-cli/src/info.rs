@@ -1,0 +1,144 @@
+//! `gimfit info`: what a file holds.
+
+use crate::arguments::InfoArguments;
+use crate::{Ending, input, output};
+use anyhow::Context;
+use gimfit::PointsView;
+use gimfit::points::Extent;
+use gimfit_io::document::{Document, Geometry, is_document, parse_document};
+use gimfit_io::points::{PointTable, read_points_from};
+use std::fmt::Write;
+use std::io::Read;
+
+pub(crate) fn run(arguments: &InfoArguments) -> anyhow::Result<Ending> {
+    let path = &arguments.input.points;
+    let standard = path.as_os_str() == "-";
+    let name = if standard { "standard input".to_owned() } else { path.display().to_string() };
+    let mut bytes = Vec::new();
+    if standard {
+        std::io::stdin().lock().read_to_end(&mut bytes).context("cannot read standard input")?;
+    } else {
+        bytes = std::fs::read(path).with_context(|| format!("cannot read {name}"))?;
+    }
+    let facts = if is_document(&bytes) {
+        of_document(&parse_document(&bytes, &name)?, name)
+    } else {
+        let ending = path.extension().map(|ending| ending.to_string_lossy().into_owned());
+        let options = input::options(&arguments.input);
+        of_points(&read_points_from(&bytes, &name, ending.as_deref(), &options)?)?
+    };
+    output::result(&if arguments.json { facts.json() } else { facts.text() })?;
+    Ok(Ending::Done)
+}
+
+/// Names and values, shown as lines or as JSON.
+struct Facts(Vec<(&'static str, serde_json::Value)>);
+
+impl Facts {
+    fn add(&mut self, name: &'static str, value: impl Into<serde_json::Value>) {
+        self.0.push((name, value.into()));
+    }
+
+    fn text(&self) -> String {
+        let mut text = String::new();
+        for (name, value) in &self.0 {
+            let shown = match value {
+                serde_json::Value::String(words) => words.clone(),
+                serde_json::Value::Array(list) => {
+                    let items: Vec<String> = list
+                        .iter()
+                        .map(|item| item.as_str().map_or_else(|| item.to_string(), str::to_owned))
+                        .collect();
+                    items.join(if *name == "notes" { "\n                   " } else { ", " })
+                }
+                other => other.to_string(),
+            };
+            let _ = writeln!(text, "{:<18} {shown}", name.replace('_', " "));
+        }
+        text
+    }
+
+    fn json(&self) -> String {
+        let map: serde_json::Map<String, serde_json::Value> =
+            self.0.iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect();
+        serde_json::Value::Object(map).to_string() + "\n"
+    }
+}
+
+fn of_points(table: &PointTable) -> anyhow::Result<Facts> {
+    let mut facts = Facts(Vec::new());
+    let view = PointsView::new(table.dimension(), &table.coordinates)?;
+    let extent = Extent::of(view)?;
+    facts.add("file", table.source.clone());
+    facts.add("holds", "points");
+    facts.add("read_as", table.format.to_string());
+    if let Some(title) = &table.title {
+        facts.add("title", title.clone());
+    }
+    facts.add("points", table.rows());
+    facts.add("dimension", table.dimension());
+    facts.add("columns", table.column_names.clone());
+    if let Some(name) = &table.abscissa_name {
+        facts.add("abscissa", name.clone());
+    }
+    facts.add("lower_corner", extent.lower.clone());
+    facts.add("upper_corner", extent.upper.clone());
+    facts.add("extent", extent.diagonal());
+    let last = view.len() - 1;
+    let steps = (1..view.len()).map(|j| distance(view.point(j - 1), view.point(j)));
+    let (shortest, longest, repeated) =
+        steps.fold((f64::INFINITY, 0.0_f64, 0_usize), |(least, most, zeros), step| {
+            let least = if step > 0.0 { step.min(least) } else { least };
+            (least, most.max(step), zeros + usize::from(step == 0.0))
+        });
+    facts.add("repeated_points", repeated);
+    if longest > 0.0 {
+        facts.add("shortest_step", shortest);
+        facts.add("longest_step", longest);
+        facts.add("gap_last_to_first", distance(view.point(last), view.point(0)));
+    }
+    facts.add("notes", table.notes.clone());
+    Ok(facts)
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).fold(0.0, |sum: f64, (x, y)| sum.hypot(x - y))
+}
+
+fn of_document(document: &Document, name: String) -> Facts {
+    let mut facts = Facts(Vec::new());
+    facts.add("file", name);
+    facts.add("holds", format!("gimfit document, version {}", document.version));
+    if let Some(Geometry::Curve(curve)) = &document.geometry {
+        let count = curve.control_points.values.len() / curve.dimension.max(1);
+        facts.add("geometry", if curve.periodic { "closed curve" } else { "open curve" });
+        facts.add("degree", curve.degree);
+        facts.add("dimension", curve.dimension);
+        facts.add("control_points", count);
+        facts.add("knots", curve.knots.len());
+        if let Ok(curve) = curve.curve() {
+            let (start, end) = curve.domain();
+            facts.add("domain", vec![start, end]);
+        }
+    }
+    if let Some(report) = &document.report {
+        if let Some(source) = &report.source {
+            facts.add("fitted_to", source.clone());
+        }
+        facts.add("points", report.points);
+        facts.add("method", report.method.clone());
+        facts.add("parameters", report.parameterization.clone());
+        facts.add("knot_placement", report.knot_placement.clone());
+        facts.add("iterations", report.iterations);
+        facts.add("ended_by", report.termination.clone());
+        facts.add("largest_residual", report.max_residual);
+        facts.add("rms_residual", report.rms_residual);
+        facts.add("largest_deviation", report.max_deviation);
+        facts.add("extent", report.extent);
+    }
+    if let Some(sequence) = &document.sequence {
+        let kept: Vec<usize> = sequence.iter().map(|kept| kept.iteration).collect();
+        facts.add("kept_iterations", kept);
+    }
+    facts
+}

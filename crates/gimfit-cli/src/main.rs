@@ -1,0 +1,47 @@
+//! The program `gimfit`: raw arguments, then a checked plan, then the run, then what is printed.
+
+mod arguments;
+mod complete;
+mod curve;
+mod evaluate;
+mod info;
+mod input;
+mod output;
+mod progress;
+mod reproduce;
+mod signal;
+
+use arguments::{Arguments, Command};
+use clap::Parser;
+use std::process::ExitCode;
+
+/// How a run that raised no error ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Ending {
+    /// Done.
+    Done,
+    /// A result was written, but it is not what was asked for.
+    NotMet,
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let result = match arguments.command {
+        Command::Curve(arguments) => curve::run(&arguments),
+        Command::Evaluate(arguments) => evaluate::run(&arguments),
+        Command::Info(arguments) => info::run(&arguments),
+        Command::Reproduce(arguments) => reproduce::run(&arguments),
+        Command::Completions(arguments) => complete::completions(&arguments),
+        Command::Manual(arguments) => complete::manual(&arguments),
+    };
+    match result {
+        Ok(Ending::Done) => ExitCode::SUCCESS,
+        Ok(Ending::NotMet) => ExitCode::from(1),
+        // Whoever reads our output has read enough.
+        Err(error) if output::is_broken_pipe(&error) => ExitCode::SUCCESS,
+        Err(error) => {
+            output::error(&error);
+            ExitCode::from(2)
+        }
+    }
+}

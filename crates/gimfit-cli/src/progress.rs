@@ -1,0 +1,54 @@
+//! A progress bar on a terminal, once the work turns out to be long.
+
+use gimfit::iteration::{Flow, Observer, Snapshot};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::IsTerminal;
+use std::time::{Duration, Instant};
+
+/// Work shorter than this needs no bar.
+const PATIENCE: Duration = Duration::from_millis(500);
+
+/// Watches an iteration: shows its residual, passes interrupts on.
+pub(crate) struct Progress {
+    started: Instant,
+    bar: Option<ProgressBar>,
+    enabled: bool,
+    most: usize,
+}
+
+impl Progress {
+    /// Shows nothing if `quiet`, or where no terminal is listening.
+    pub(crate) fn new(quiet: bool, most: usize) -> Self {
+        let enabled = !quiet && std::io::stderr().is_terminal();
+        Self { started: Instant::now(), bar: None, enabled, most }
+    }
+
+    fn show(&mut self, snapshot: &Snapshot<'_>) {
+        if !self.enabled || self.started.elapsed() < PATIENCE {
+            return;
+        }
+        let most = self.most as u64;
+        let bar = self.bar.get_or_insert_with(|| {
+            let style =
+                ProgressStyle::with_template("{elapsed} [{bar:30}] iteration {pos}/{len}, {msg}");
+            let bar = ProgressBar::new(most);
+            style.map_or(bar.clone(), |style| bar.with_style(style))
+        });
+        bar.set_position(snapshot.entry.iteration as u64);
+        bar.set_message(format!("largest residual {:.2e}", snapshot.entry.max_residual));
+    }
+
+    /// Takes the bar away.
+    pub(crate) fn finish(self) {
+        if let Some(bar) = self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+impl Observer for Progress {
+    fn observe(&mut self, snapshot: Snapshot<'_>) -> Flow {
+        self.show(&snapshot);
+        if crate::signal::interrupted() { Flow::Stop } else { Flow::Continue }
+    }
+}

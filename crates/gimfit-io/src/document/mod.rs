@@ -1,0 +1,28 @@
+//! The JSON document of gimfit, version 1: a geometry, the parameters of the data, and the report
+//! of the fit. Described for users in `docs/format.md` and `docs/gimfit-1.schema.json`.
+//!
+//! Numbers are written with as many digits as they need to come back bit by bit.
+
+mod model;
+mod read;
+mod rows;
+
+pub use model::{
+    CurveGeometry, Document, Geometry, HistoryRow, ReportData, Seconds, SequenceFit,
+};
+pub use read::{DocumentError, is_document, parse_document, read_document};
+pub use rows::PointRows;
+
+/// The document of a fit, without the times, which the library does not know.
+#[must_use]
+pub fn document_of(fit: &gimfit::CurveFit) -> Document {
+    Document {
+        geometry: Some(Geometry::Curve(CurveGeometry::of(&fit.curve))),
+        parameters: Some(fit.parameters.clone()),
+        kept_points: fit.kept_points.clone(),
+        report: Some(ReportData::of(&fit.report)),
+        sequence: (!fit.sequence.is_empty())
+            .then(|| fit.sequence.iter().map(SequenceFit::of).collect()),
+        ..Document::default()
+    }
+}

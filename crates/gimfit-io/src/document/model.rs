@@ -1,0 +1,287 @@
+//! The document as data.
+
+use super::PointRows;
+use gimfit::{Curve, CurveReport, Error, KeptFit, KnotVector, Points};
+use serde::{Deserialize, Serialize};
+
+/// A whole document; parts that were not asked for are left out.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Document {
+    /// Always `gimfit`.
+    pub format: String,
+    /// Always 1.
+    pub version: u32,
+    /// The curve.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub geometry: Option<Geometry>,
+    /// Parameter of each data point fitted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub parameters: Option<Vec<f64>>,
+    /// Positions of the points fitted among those read, from 0; left out when all were fitted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kept_points: Option<Vec<usize>>,
+    /// Names of the coordinates, where the input had them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coordinate_names: Option<Vec<String>>,
+    /// The account of the fit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub report: Option<ReportData>,
+    /// Fits kept on the way.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sequence: Option<Vec<SequenceFit>>,
+}
+
+impl Default for Document {
+    fn default() -> Self {
+        Self {
+            format: "gimfit".into(),
+            version: 1,
+            geometry: None,
+            parameters: None,
+            kept_points: None,
+            coordinate_names: None,
+            report: None,
+            sequence: None,
+        }
+    }
+}
+
+/// What was fitted.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "type", rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum Geometry {
+    /// A B-spline curve.
+    Curve(CurveGeometry),
+}
+
+/// A B-spline curve as any evaluator takes it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CurveGeometry {
+    /// Degree p.
+    pub degree: usize,
+    /// Coordinates per point.
+    pub dimension: usize,
+    /// Whether the curve closes smoothly; its last p control points then repeat the first.
+    pub periodic: bool,
+    /// n + p + 1 knots.
+    pub knots: Vec<f64>,
+    /// n control points.
+    pub control_points: PointRows,
+    /// Weights of a rational curve; null for polynomial ones.
+    pub weights: Option<Vec<f64>>,
+}
+
+impl CurveGeometry {
+    /// Takes a curve apart.
+    #[must_use]
+    pub fn of(curve: &Curve) -> Self {
+        Self {
+            degree: curve.degree(),
+            dimension: curve.dimension(),
+            periodic: curve.is_periodic(),
+            knots: curve.knots().values().to_vec(),
+            control_points: curve.control_points().into(),
+            weights: None,
+        }
+    }
+
+    /// Puts the curve together, checked.
+    ///
+    /// # Errors
+    /// What the knots or control points lack.
+    pub fn curve(&self) -> Result<Curve, Error> {
+        self.curve_with(&self.control_points)
+    }
+
+    /// The curve with other control points: one of a sequence.
+    ///
+    /// # Errors
+    /// As [`CurveGeometry::curve`].
+    pub fn curve_with(&self, control_points: &PointRows) -> Result<Curve, Error> {
+        if self.weights.is_some() {
+            return Err(Error::Incompatible {
+                what: "weights",
+                with: "this version of gimfit",
+                why: "rational curves cannot be evaluated yet",
+            });
+        }
+        if control_points.dimension != self.dimension {
+            return Err(Error::WrongCount {
+                what: "coordinates per control point",
+                given: control_points.dimension,
+                expected: self.dimension,
+                why: "the dimension stated",
+            });
+        }
+        let knots = if self.periodic {
+            KnotVector::periodic(self.degree, self.knots.clone())?
+        } else {
+            KnotVector::open(self.degree, self.knots.clone())?
+        };
+        Curve::new(knots, Points::new(self.dimension, control_points.values.clone())?)
+    }
+}
+
+/// A fit of an earlier iteration, over the knots of the geometry.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SequenceFit {
+    /// Steps taken.
+    pub iteration: usize,
+    /// Largest norm of a difference vector.
+    #[serde(with = "number_or_null")]
+    pub max_residual: f64,
+    /// Root mean square of the norms.
+    #[serde(with = "number_or_null")]
+    pub rms_residual: f64,
+    /// Its control points.
+    pub control_points: PointRows,
+}
+
+impl SequenceFit {
+    /// Takes a kept fit over.
+    #[must_use]
+    pub fn of(kept: &KeptFit) -> Self {
+        Self {
+            iteration: kept.entry.iteration,
+            max_residual: kept.entry.max_residual,
+            rms_residual: kept.entry.rms_residual,
+            control_points: (&kept.control_points).into(),
+        }
+    }
+}
+
+/// Residuals after an iteration.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct HistoryRow {
+    /// Steps taken before.
+    pub iteration: usize,
+    /// Largest norm of a difference vector; null where a diverging run left the range of doubles.
+    #[serde(with = "number_or_null")]
+    pub max_residual: f64,
+    /// Root mean square of the norms; null likewise.
+    #[serde(with = "number_or_null")]
+    pub rms_residual: f64,
+}
+
+/// Measured times.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Seconds {
+    /// Reading the points.
+    pub read: f64,
+    /// Fitting.
+    pub fit: f64,
+    /// Writing the files before this document; null in a document written before it was known.
+    pub write: Option<f64>,
+}
+
+/// The account of a fit. Lengths are in the unit of the data; indices count the points fitted,
+/// from 0.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ReportData {
+    /// File or stream the points came from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub source: Option<String>,
+    /// Data points fitted.
+    pub points: usize,
+    /// Control points stored.
+    pub control_points: usize,
+    /// Degree.
+    pub degree: usize,
+    /// Coordinates per point.
+    pub dimension: usize,
+    /// Whether the curve closes.
+    pub closed: bool,
+    /// How parameters were assigned.
+    pub parameterization: String,
+    /// How knots were placed.
+    pub knot_placement: String,
+    /// The rule that ran.
+    pub method: String,
+    /// Sentences on what was chosen, and why.
+    pub choices: Vec<String>,
+    /// Steps run.
+    pub iterations: usize,
+    /// Steps behind the fit returned.
+    pub iteration_returned: usize,
+    /// `residual`, `iterations`, `stalled`, `diverged` or `cancelled`.
+    pub termination: String,
+    /// The residual aimed at.
+    pub residual_target: f64,
+    /// Diagonal of the data's bounding box.
+    pub extent: f64,
+    /// Largest norm of a difference vector.
+    pub max_residual: f64,
+    /// Where it is met.
+    pub max_residual_index: usize,
+    /// Root mean square of the norms.
+    pub rms_residual: f64,
+    /// Largest distance of a data point from its foot point.
+    pub max_deviation: f64,
+    /// Where it is met.
+    pub max_deviation_index: usize,
+    /// Longest step of the parameters over the shortest.
+    pub spacing_ratio: f64,
+    /// Smallest eigenvalue of the collocation matrix, where it was needed.
+    pub smallest_eigenvalue: Option<f64>,
+    /// Measured times.
+    #[serde(default)]
+    pub seconds: Option<Seconds>,
+    /// Residuals step by step.
+    pub history: Vec<HistoryRow>,
+}
+
+impl ReportData {
+    /// Takes a report over.
+    #[must_use]
+    pub fn of(report: &CurveReport) -> Self {
+        Self {
+            source: None,
+            points: report.points,
+            control_points: report.control_points,
+            degree: report.degree,
+            dimension: report.dimension,
+            closed: report.closed,
+            parameterization: report.parameterization.into(),
+            knot_placement: report.knot_placement.into(),
+            method: report.method.into(),
+            choices: report.choices.clone(),
+            iterations: report.iterations,
+            iteration_returned: report.iteration_returned,
+            termination: report.termination.as_str().into(),
+            residual_target: report.residual_target,
+            extent: report.extent,
+            max_residual: report.max_residual,
+            max_residual_index: report.max_residual_index,
+            rms_residual: report.rms_residual,
+            max_deviation: report.max_deviation,
+            max_deviation_index: report.max_deviation_index,
+            spacing_ratio: report.spacing_ratio,
+            smallest_eigenvalue: report.smallest_eigenvalue,
+            seconds: None,
+            history: report
+                .history
+                .iter()
+                .map(|entry| HistoryRow {
+                    iteration: entry.iteration,
+                    max_residual: entry.max_residual,
+                    rms_residual: entry.rms_residual,
+                })
+                .collect(),
+        }
+    }
+}
+
+/// JSON has no infinities; the residuals of a run that diverged become null.
+mod number_or_null {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    #[allow(clippy::trivially_copy_pass_by_ref)]
+    pub(super) fn serialize<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+        value.is_finite().then_some(*value).serialize(serializer)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+        Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
+    }
+}

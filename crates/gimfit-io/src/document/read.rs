@@ -1,0 +1,119 @@
+//! Reading a document back, checked.
+
+use super::{Document, Geometry};
+use std::path::Path;
+
+/// A document that cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum DocumentError {
+    /// The file cannot be opened or read.
+    #[error("cannot read {name}: {source}")]
+    Unreadable {
+        /// The file.
+        name: String,
+        /// What the system said.
+        #[source]
+        source: std::io::Error,
+    },
+    /// It is not JSON, or not of this shape.
+    #[error("{name}, line {line}, column {column}: {problem}")]
+    Malformed {
+        /// The file.
+        name: String,
+        /// Line of the trouble, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+        /// What is wrong.
+        problem: String,
+    },
+    /// JSON of another program or of a later version.
+    #[error("{name} is no gimfit document of version 1: {problem}")]
+    Foreign {
+        /// The file.
+        name: String,
+        /// What it says it is.
+        problem: String,
+    },
+    /// The geometry breaks a precondition.
+    #[error("{name}: {source}")]
+    Geometry {
+        /// The file.
+        name: String,
+        /// What is wrong with it.
+        #[source]
+        source: gimfit::Error,
+    },
+}
+
+/// Whether bytes look like a JSON document rather than points.
+#[must_use]
+pub fn is_document(bytes: &[u8]) -> bool {
+    bytes.trim_ascii_start().first() == Some(&b'{')
+}
+
+/// Reads a document and checks that its geometry can be evaluated.
+///
+/// # Errors
+/// [`DocumentError`], naming the file and the place.
+pub fn read_document(path: &Path) -> Result<Document, DocumentError> {
+    let name = path.display().to_string();
+    let bytes = std::fs::read(path)
+        .map_err(|source| DocumentError::Unreadable { name: name.clone(), source })?;
+    parse_document(&bytes, &name)
+}
+
+/// As [`read_document`], from memory.
+///
+/// # Errors
+/// [`DocumentError`].
+pub fn parse_document(bytes: &[u8], name: &str) -> Result<Document, DocumentError> {
+    let malformed = |error: &serde_json::Error| DocumentError::Malformed {
+        name: name.into(),
+        line: error.line(),
+        column: error.column(),
+        problem: without_place(&error.to_string()),
+    };
+    let document: Document = match serde_json::from_slice(bytes) {
+        Ok(document) => document,
+        Err(error) => {
+            return Err(match foreign(bytes) {
+                Some(problem) => DocumentError::Foreign { name: name.into(), problem },
+                None => malformed(&error),
+            });
+        }
+    };
+    if let Some(problem) = foreign(bytes) {
+        return Err(DocumentError::Foreign { name: name.into(), problem });
+    }
+    if let Some(Geometry::Curve(curve)) = &document.geometry {
+        let geometry = |source| DocumentError::Geometry { name: name.into(), source };
+        curve.curve().map_err(geometry)?;
+        for fit in document.sequence.iter().flatten() {
+            curve.curve_with(&fit.control_points).map_err(geometry)?;
+        }
+    }
+    Ok(document)
+}
+
+/// What JSON that is not ours says of itself.
+fn foreign(bytes: &[u8]) -> Option<String> {
+    #[derive(serde::Deserialize)]
+    struct Head {
+        format: Option<serde_json::Value>,
+        version: Option<serde_json::Value>,
+    }
+    let head: Head = serde_json::from_slice(bytes).ok()?;
+    match (head.format.as_ref().and_then(|f| f.as_str()), head.version) {
+        (Some("gimfit"), Some(version)) if version == 1 => None,
+        (Some("gimfit"), Some(version)) => Some(format!("its version is {version}")),
+        (Some("gimfit"), None) => Some("it has no \"version\"".into()),
+        (Some(other), _) => Some(format!("its format is \"{other}\"")),
+        (None, _) => Some("it has no \"format\": \"gimfit\"".into()),
+    }
+}
+
+/// The message of the JSON reader without the place, which stands in front already.
+fn without_place(message: &str) -> String {
+    message.rsplit_once(" at line ").map_or(message, |(what, _)| what).to_owned()
+}
