@@ -105,7 +105,13 @@ pub(crate) struct CurveArguments {
 
     /// Period of a closed curve over an abscissa, or over parameters from a file, where the point
     /// at which it closes is not listed
-    #[arg(long, value_name = "T", requires = "closed", help_heading = "Curve")]
+    #[arg(
+        long,
+        value_name = "T",
+        requires = "closed",
+        allow_negative_numbers = true,
+        help_heading = "Curve"
+    )]
     pub(crate) period: Option<f64>,
 
     /// Knots: averaged, not-a-knot (odd degrees), at-data (odd degrees; tied ends), uniform, or a
@@ -139,7 +145,13 @@ pub(crate) struct CurveArguments {
 
     /// Weight for weighted and sor: auto (the best one), a number between 0 and 2, or for weighted
     /// a file of one number per point
-    #[arg(long, default_value = "auto", value_name = "W|auto|FILE", help_heading = "Iteration")]
+    #[arg(
+        long,
+        default_value = "auto",
+        value_name = "W|auto|FILE",
+        allow_negative_numbers = true,
+        help_heading = "Iteration"
+    )]
     pub(crate) weight: String,
 
     /// Half bandwidth kept by the preconditioned method [default: the whole band]
@@ -152,7 +164,7 @@ pub(crate) struct CurveArguments {
 
     /// Largest residual to reach, in the unit of the points; 0 runs all iterations [default: 1e-12
     /// of the extent, or what rounding allows]
-    #[arg(long, value_name = "T", help_heading = "Iteration")]
+    #[arg(long, value_name = "T", allow_negative_numbers = true, help_heading = "Iteration")]
     pub(crate) residual: Option<f64>,
 
     /// Iterations whose fits are kept, such as 0,2,4,15,30

@@ -6,13 +6,12 @@ use std::path::{Path, PathBuf};
 
 /// A file that could not be written.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot write {}: {source}", path.display())]
+#[error("cannot write {}: {reason}", path.display())]
 pub struct WriteError {
     /// The file as the caller named it.
     pub path: PathBuf,
     /// What the system, or the format, said.
-    #[source]
-    pub source: io::Error,
+    pub reason: io::Error,
 }
 
 /// Writes a file through a temporary neighbour that takes its name when it is complete, so that a
@@ -25,7 +24,7 @@ pub fn write_file(
     path: &Path,
     content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), WriteError> {
-    write(path, content).map_err(|source| WriteError { path: path.to_path_buf(), source })
+    write(path, content).map_err(|reason| WriteError { path: path.to_path_buf(), reason })
 }
 
 fn write(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
@@ -58,7 +57,11 @@ fn write(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) ->
         let mode = fs::metadata(&target).map_or(0o666, |old| old.permissions().mode() & 0o777);
         builder.permissions(fs::Permissions::from_mode(mode));
     }
-    let temporary = builder.tempfile_in(folder)?;
+    // The name of the temporary file is no concern of the reader's.
+    let temporary = builder.tempfile_in(folder).map_err(|error| match error.raw_os_error() {
+        Some(code) => io::Error::from_raw_os_error(code),
+        None => io::Error::from(error.kind()),
+    })?;
     let mut writer = BufWriter::with_capacity(1 << 18, temporary);
     content(&mut writer)?;
     let temporary = writer.into_inner().map_err(io::IntoInnerError::into_error)?;

@@ -34,7 +34,9 @@ pub enum Error {
         dimension: usize,
     },
     /// NaN or an infinity in the data.
-    #[error("coordinate {coordinate} of point {point} is {value}; every coordinate must be finite")]
+    #[error(
+        "coordinate {coordinate} of point {point} is {value:?}; every coordinate must be finite"
+    )]
     NotFinite {
         /// Position of the point, from 0.
         point: usize,
@@ -79,7 +81,7 @@ pub enum Error {
     },
     /// Given parameters that do not increase strictly.
     #[error(
-        "parameter {value} of point {index} does not exceed its predecessor {previous}; parameters must increase strictly"
+        "parameter {value:?} of point {index} does not exceed its predecessor {previous:?}; parameters must increase strictly"
     )]
     ParametersNotIncreasing {
         /// Position of the offending parameter.
@@ -102,7 +104,7 @@ pub enum Error {
         why: &'static str,
     },
     /// A value outside its range: a weight of 2.5, degree 0, a negative residual.
-    #[error("{what} is {value}; {rule}")]
+    #[error("{what} is {value:?}; {rule}")]
     OutOfRange {
         /// The option or list entry, such as `iteration weight 7`.
         what: String,
@@ -112,7 +114,7 @@ pub enum Error {
         rule: &'static str,
     },
     /// Knots that fall, are not finite, or repeat more often than the degree allows.
-    #[error("knot {index} ({value}) {problem}")]
+    #[error("knot {index} ({value:?}) {problem}")]
     BadKnot {
         /// Position in the knot vector.
         index: usize,
@@ -124,7 +126,7 @@ pub enum Error {
     /// The knots leave a data point without its basis function
     /// (the conditions of Schoenberg and Whitney, 1953).
     #[error(
-        "the knots do not fit the parameters: basis function {point} vanishes at parameter {parameter} of point {point} (Schoenberg-Whitney condition); averaged knots always fit"
+        "the knots do not fit the parameters: basis function {point} vanishes at parameter {parameter:?} of point {point} (Schoenberg-Whitney condition); averaged knots always fit"
     )]
     SchoenbergWhitney {
         /// Position of the point.
@@ -151,7 +153,7 @@ pub enum Error {
         why: &'static str,
     },
     /// A parameter outside the curve's domain.
-    #[error("parameter {parameter} lies outside the domain [{start}, {end}]")]
+    #[error("parameter {parameter:?} lies outside the domain [{start:?}, {end:?}]")]
     OutsideDomain {
         /// The parameter asked for.
         parameter: f64,

@@ -1,6 +1,8 @@
 //! From a fit to the figure of it.
 
 use super::Job;
+use std::path::Path;
+
 use gimfit_io::figure::{CurveFigure, CurveSamples, SequenceCurve, curve_figure_svg};
 
 /// Samples per span of knots, and the most in all.
@@ -45,7 +47,13 @@ pub(super) fn figure(job: &Job<'_>) -> String {
             curve: CurveSamples { parameters: &parameters, points, beziers: None },
         })
         .collect();
-    let title = table.title.as_deref().unwrap_or(&table.source);
+    // A picture needs the file's name, not the way to it.
+    let name = Path::new(&table.source).file_name().map(|name| name.to_string_lossy());
+    let title = match (&table.title, name) {
+        (Some(title), _) => title.clone(),
+        (None, Some(name)) => name.into_owned(),
+        (None, None) => table.source.clone(),
+    };
     let caption = format!(
         "{}, {} points, {} control points, {}, {} iteration{}, largest residual {:.2e}",
         degree_name(report.degree),
@@ -58,7 +66,7 @@ pub(super) fn figure(job: &Job<'_>) -> String {
     );
     let residuals = fit.residuals();
     curve_figure_svg(&CurveFigure {
-        title,
+        title: &title,
         caption: &caption,
         dimension,
         coordinate_names: &table.column_names,

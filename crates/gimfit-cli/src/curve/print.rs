@@ -59,12 +59,12 @@ pub(super) fn report(job: &Job<'_>, written: &[String]) -> String {
     line(
         "residual",
         &format!(
-            "largest {:.3e} at {}, rms {:.3e}; {:.1e} of the extent {:.6}",
+            "largest {:.3e} at {}, rms {:.3e}; {:.1e} of the extent {}",
             report.max_residual,
             place(job, report.max_residual_index),
             report.rms_residual,
             share(report.max_residual, report.extent),
-            report.extent
+            length(report.extent)
         ),
     );
     line(
@@ -96,6 +96,11 @@ fn place(job: &Job<'_>, fitted: usize) -> String {
 
 fn share(part: f64, whole: f64) -> f64 {
     if whole > 0.0 { part / whole } else { 0.0 }
+}
+
+/// A length in plain digits where they are few.
+fn length(x: f64) -> String {
+    if (1e-4..1e9).contains(&x) { format!("{x:.6}") } else { format!("{x:.6e}") }
 }
 
 fn time(seconds: f64) -> String {

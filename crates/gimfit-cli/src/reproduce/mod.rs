@@ -1,9 +1,116 @@
 //! Published tables, recomputed and shown beside the paper.
 
+mod functions2007;
+mod measure;
+mod orsi2021;
+mod spectra;
+mod table;
+mod wang2007;
+
 use crate::Ending;
 use crate::arguments::ReproduceArguments;
+use crate::output;
+use anyhow::bail;
+use std::fmt::Write;
+use table::Table;
+
+/// A table that can be asked for.
+struct Reproduction {
+    name: &'static str,
+    line: &'static str,
+    recompute: fn() -> anyhow::Result<Table>,
+}
+
+const REPRODUCTIONS: [Reproduction; 4] = [
+    Reproduction {
+        name: "wang2007",
+        line: "Wang, Li, Jiang and Li 2007, Table 1: closed quadratic curve, 15 passes",
+        recompute: wang2007::recompute,
+    },
+    Reproduction {
+        name: "functions2007",
+        line: "Wang, Li, Jiang and Li 2007, section 5.2: three functions, measured errors",
+        recompute: functions2007::recompute,
+    },
+    Reproduction {
+        name: "orsi2021",
+        line: "Orsi 2021, Tables 2.1 and 2.2: lemniscate, plain and weighted PIA",
+        recompute: orsi2021::recompute,
+    },
+    Reproduction {
+        name: "spectra",
+        line: "Theory: smallest eigenvalues, weights, rates and poles for degrees 2 to 7",
+        recompute: spectra::recompute,
+    },
+];
 
 /// Prints the tables asked for; an entry that should agree and does not makes the run fail.
-pub(crate) fn run(_arguments: &ReproduceArguments) -> anyhow::Result<Ending> {
-    Ok(Ending::Done)
+pub(crate) fn run(arguments: &ReproduceArguments) -> anyhow::Result<Ending> {
+    let chosen = choose(&arguments.tables)?;
+    if arguments.list {
+        let mut text = String::new();
+        for reproduction in chosen {
+            writeln!(text, "{:<14} {}", reproduction.name, reproduction.line)?;
+        }
+        output::result(&text)?;
+        return Ok(Ending::Done);
+    }
+    let mut text = String::new();
+    let mut summaries = String::new();
+    let mut met = true;
+    for reproduction in chosen {
+        let table = (reproduction.recompute)()?;
+        writeln!(text, "{}\n", table.text(reproduction.name))?;
+        writeln!(summaries, "{}: {}", reproduction.name, table.summary())?;
+        met &= table.agrees();
+    }
+    output::result(&(text + &summaries))?;
+    Ok(if met { Ending::Done } else { Ending::NotMet })
+}
+
+/// The tables of these names, in this order; all if there are none.
+fn choose(names: &[String]) -> anyhow::Result<Vec<&'static Reproduction>> {
+    if names.is_empty() {
+        return Ok(REPRODUCTIONS.iter().collect());
+    }
+    let mut chosen = Vec::new();
+    for name in names {
+        match REPRODUCTIONS.iter().find(|reproduction| reproduction.name == name) {
+            Some(reproduction) => chosen.push(reproduction),
+            None => {
+                let known: Vec<&str> = REPRODUCTIONS.iter().map(|r| r.name).collect();
+                bail!("there is no table '{name}'; the tables are {}", known.join(", "));
+            }
+        }
+    }
+    Ok(chosen)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_table_agrees() {
+        for reproduction in &REPRODUCTIONS {
+            let table = (reproduction.recompute)().unwrap();
+            assert!(table.agrees(), "{}", table.text(reproduction.name));
+        }
+    }
+
+    #[test]
+    fn lines_fit_into_100_columns() {
+        for reproduction in &REPRODUCTIONS {
+            let table = (reproduction.recompute)().unwrap();
+            let text = table.text(reproduction.name);
+            assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
+        }
+    }
+
+    #[test]
+    fn an_unknown_name_is_told_the_known_ones() {
+        let error = choose(&["wang2008".into()]).err().unwrap().to_string();
+        assert!(error.contains("wang2008") && error.contains("wang2007"), "{error}");
+        assert_eq!(choose(&[]).unwrap().len(), REPRODUCTIONS.len());
+    }
 }

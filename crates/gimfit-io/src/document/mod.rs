@@ -7,9 +7,7 @@ mod model;
 mod read;
 mod rows;
 
-pub use model::{
-    CurveGeometry, Document, Geometry, HistoryRow, ReportData, Seconds, SequenceFit,
-};
+pub use model::{CurveGeometry, Document, Geometry, HistoryRow, ReportData, Seconds, SequenceFit};
 pub use read::{DocumentError, is_document, parse_document, read_document};
 pub use rows::PointRows;
 

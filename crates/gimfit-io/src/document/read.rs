@@ -7,13 +7,12 @@ use std::path::Path;
 #[derive(Debug, thiserror::Error)]
 pub enum DocumentError {
     /// The file cannot be opened or read.
-    #[error("cannot read {name}: {source}")]
+    #[error("cannot read {name}: {reason}")]
     Unreadable {
         /// The file.
         name: String,
         /// What the system said.
-        #[source]
-        source: std::io::Error,
+        reason: std::io::Error,
     },
     /// It is not JSON, or not of this shape.
     #[error("{name}, line {line}, column {column}: {problem}")]
@@ -36,13 +35,12 @@ pub enum DocumentError {
         problem: String,
     },
     /// The geometry breaks a precondition.
-    #[error("{name}: {source}")]
+    #[error("{name}: {reason}")]
     Geometry {
         /// The file.
         name: String,
         /// What is wrong with it.
-        #[source]
-        source: gimfit::Error,
+        reason: gimfit::Error,
     },
 }
 
@@ -59,7 +57,7 @@ pub fn is_document(bytes: &[u8]) -> bool {
 pub fn read_document(path: &Path) -> Result<Document, DocumentError> {
     let name = path.display().to_string();
     let bytes = std::fs::read(path)
-        .map_err(|source| DocumentError::Unreadable { name: name.clone(), source })?;
+        .map_err(|reason| DocumentError::Unreadable { name: name.clone(), reason })?;
     parse_document(&bytes, &name)
 }
 
@@ -87,7 +85,7 @@ pub fn parse_document(bytes: &[u8], name: &str) -> Result<Document, DocumentErro
         return Err(DocumentError::Foreign { name: name.into(), problem });
     }
     if let Some(Geometry::Curve(curve)) = &document.geometry {
-        let geometry = |source| DocumentError::Geometry { name: name.into(), source };
+        let geometry = |reason| DocumentError::Geometry { name: name.into(), reason };
         curve.curve().map_err(geometry)?;
         for fit in document.sequence.iter().flatten() {
             curve.curve_with(&fit.control_points).map_err(geometry)?;

@@ -155,6 +155,9 @@ pub fn interpolate<'a>(
     solve(Problem { data: view, scale, extent, parameters, knots }, options, &mut NoObserver)
 }
 
+/// Share of the extent that rounding may take where no residual was demanded.
+const MOST_ROUNDING: f64 = 1e-9;
+
 /// Everything a run needs, in scaled coordinates but for the extent.
 struct Problem<'a> {
     data: PointsView<'a>,
@@ -281,7 +284,11 @@ fn stopping(
     Ok(Stopping {
         residual,
         max_iterations: options.iterations,
-        accept_rounding: options.residual.is_none(),
+        accept_rounding: if options.residual.is_none() {
+            residual.max(MOST_ROUNDING * scale.up(extent.diagonal()))
+        } else {
+            0.0
+        },
     })
 }
 

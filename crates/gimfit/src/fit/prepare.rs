@@ -105,9 +105,11 @@ fn open_up<'a>(
         return Ok(points);
     }
     choices.push(if gap == 0.0 {
-        format!("closing: point {last} repeats point 0 and is taken as the closing point")
+        "closing: the last point repeats the first and is taken as the closing point".into()
     } else {
-        format!("closing: point {last} lies {gap:e} from point 0 and is taken as the closing point")
+        format!(
+            "closing: the last point lies {gap:e} from the first and is taken as the closing point"
+        )
     });
     PointsView::new(points.dimension(), &points.coordinates()[..last * points.dimension()])
 }

@@ -19,8 +19,9 @@ pub struct Outcome {
 
 /// Runs a rule on a state until the stopping settings or the observer end it.
 ///
-/// A run that diverged or stalled leaves the control points of its smallest residual in the state:
-/// it is repeated from the start up to there, which costs nothing in all other cases.
+/// A run that diverged, stalled or came down to rounding leaves the control points of its smallest
+/// residual in the state: it is repeated from the start up to there, which costs nothing in all
+/// other cases.
 pub fn run(
     state: &mut IterationState<'_>,
     rule: &mut dyn UpdateRule,
@@ -43,8 +44,9 @@ pub fn run(
     };
     let iterations = state.iteration();
     let best = judge.best_iteration();
-    let lost = matches!(termination, Termination::Diverged | Termination::Stalled);
-    if lost && best < iterations {
+    // All iterations, or as many as the observer allowed, are what the caller asked for.
+    let asked = matches!(termination, Termination::Iterations | Termination::Cancelled);
+    if !asked && best < iterations {
         rule.reset();
         state.restart();
         (0..best).for_each(|_| state.step(rule));

@@ -46,8 +46,8 @@ pub struct Stopping {
     pub residual: f64,
     /// Most steps taken.
     pub max_iterations: usize,
-    /// Whether the level of rounding will do where `residual` lies below it.
-    pub accept_rounding: bool,
+    /// Where `residual` lies below the level of rounding, that level will do up to this one.
+    pub accept_rounding: f64,
 }
 
 /// Steps without a new best residual that count as a stall.
@@ -110,8 +110,9 @@ impl StoppingRule {
         if residual == 0.0 || without_gain == 0 {
             return None;
         }
-        let rounded = max_residual <= rounding_level();
-        if rounded && accept_rounding {
+        let level = rounding_level();
+        let rounded = max_residual <= level;
+        if rounded && level <= accept_rounding {
             return Some(Termination::Residual);
         }
         let patience = if rounded { PATIENCE_AT_ROUNDING } else { PATIENCE };
@@ -135,7 +136,7 @@ mod tests {
     }
 
     const SETTINGS: Stopping =
-        Stopping { residual: 1e-12, max_iterations: 1000, accept_rounding: false };
+        Stopping { residual: 1e-12, max_iterations: 1000, accept_rounding: 0.0 };
 
     #[test]
     fn every_reason_is_met() {
@@ -156,7 +157,7 @@ mod tests {
         let floor = (0..).map(|k| 0.01_f64.powi(k).max(5e-16));
         let strict = Stopping { residual: 1e-16, ..SETTINGS };
         assert_eq!(end(strict, floor.clone()), (Termination::Stalled, 12));
-        let agreed = Stopping { accept_rounding: true, ..strict };
+        let agreed = Stopping { accept_rounding: 1e-14, ..strict };
         assert_eq!(end(agreed, floor), (Termination::Residual, 9));
     }
 

@@ -1,0 +1,43 @@
+//! A step allocates nothing, whatever the rule.
+
+use gimfit::collocation::interpolation;
+use gimfit::iteration::update::{
+    Chebyshev, GaussSeidel, Jacobi, PerPoint, Pia, Preconditioned, Sor, Staged, Weighted,
+};
+use gimfit::iteration::{IterationState, UpdateRule};
+use gimfit::knots::place_knots;
+use gimfit::parameters::assign_parameters;
+use gimfit::{KnotPlacement, Parameterization, PointsView};
+use gimfit_testkit::generate::helix;
+
+#[test]
+fn steps_allocate_nothing() {
+    const COUNT: usize = 500;
+    let data = helix(COUNT);
+    let view = PointsView::new(3, &data).unwrap();
+    for closed in [false, true] {
+        let t = assign_parameters(view, closed, &Parameterization::Chord).unwrap();
+        let knots = place_knots(3, &t, &KnotPlacement::Averaged).unwrap();
+        let operator = interpolation(&t, &knots).unwrap().operator;
+        let whole = || Preconditioned::new(&operator, None).unwrap();
+        let rules: [Box<dyn UpdateRule + '_>; 9] = [
+            Box::new(Pia),
+            Box::new(Weighted::new(1.2)),
+            Box::new(PerPoint::new(vec![1.1; COUNT])),
+            Box::new(Jacobi::new(&operator)),
+            Box::new(GaussSeidel::new(&operator)),
+            Box::new(Sor::new(&operator, 1.1)),
+            Box::new(Chebyshev::new(0.1, 1.0, 3 * COUNT)),
+            Box::new(whole()),
+            Box::new(Staged::new(Pia, 2, whole())),
+        ];
+        for mut rule in rules {
+            let mut state = IterationState::begin(&operator, &data, 3);
+            let counted = allocation_counter::measure(|| {
+                (0..5).for_each(|_| state.step(rule.as_mut()));
+            });
+            assert_eq!(counted.count_total, 0, "{rule:?}");
+            assert!(state.norms().is_finite());
+        }
+    }
+}
