@@ -50,14 +50,23 @@ impl BandedCollocation {
         self.row(j).find(|&(column, _)| column == j).map_or(0.0, |(_, weight)| weight)
     }
 
-    /// Whether some row wraps round.
+    /// The operator with the entries farther than `half_bandwidth` from the diagonal added to the
+    /// diagonal of their row: a diagonally compensated reduction, whose rows sum to 1 still
+    /// (Liu and Liu 2020).
     #[must_use]
-    pub fn is_cyclic(&self) -> bool {
-        let count = self.first.len() as i32;
-        let wraps = |j: usize| self.signed_row(j).any(|(c, _)| c < 0 || c >= count);
-        // Only rows near the ends can.
-        let reach = self.width.min(self.first.len());
-        (0..reach).any(wraps) || (self.first.len() - reach..self.first.len()).any(wraps)
+    pub fn compensated(&self, half_bandwidth: usize) -> Self {
+        let mut reduced = self.clone();
+        let limit = i32::try_from(half_bandwidth).unwrap_or(i32::MAX);
+        let rows = self.first.iter().zip(reduced.weights.chunks_exact_mut(self.width));
+        for (j, (&first, weights)) in rows.enumerate() {
+            let diagonal = j as i32 - first;
+            for k in 0..weights.len() {
+                if (k as i32 - diagonal).abs() > limit {
+                    weights[diagonal as usize] += std::mem::take(&mut weights[k]);
+                }
+            }
+        }
+        reduced
     }
 }
 

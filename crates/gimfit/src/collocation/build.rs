@@ -106,17 +106,15 @@ fn collocate(t: &[f64], knots: &KnotVector) -> CollocationRows {
     let degree = knots.degree();
     let width = degree + 1;
     let mut first = memory::with_capacity(t.len());
-    let mut weights = memory::with_capacity(t.len() * width);
-    let mut values = [0.0; MAX_DEGREE + 1];
+    let mut weights = memory::zeros(t.len() * width);
     let mut span = degree;
     let mut previous = f64::NEG_INFINITY;
-    for &t in t {
+    for (&t, row) in t.iter().zip(weights.chunks_exact_mut(width)) {
         // Only the seam of a closed curve steps back.
         span = knots.span_from(if t < previous { degree } else { span }, t);
         previous = t;
-        basis_functions(knots.values(), degree, span, t, &mut values);
+        basis_functions(knots.values(), degree, span, t, row);
         first.push((span - degree) as i32);
-        weights.extend_from_slice(&values[..width]);
     }
     CollocationRows { width, first, weights }
 }

@@ -5,7 +5,8 @@
 //! Pinkus 1977) and keeps the band. A closed curve's matrix wraps round; its last few unknowns are
 //! set apart and met through their Schur complement.
 
-use super::kernel::{self, Rows};
+use super::band_kernel::{self, Band};
+use super::kernel::Rows;
 use super::{BandedCollocation, CollocationOperator};
 use crate::{Error, memory};
 
@@ -14,8 +15,7 @@ use crate::{Error, memory};
 #[derive(Debug, Clone)]
 pub struct BandFactors {
     count: usize,
-    below: usize,
-    above: usize,
+    band: Band,
     /// Multipliers of the `below` rows before each row.
     lower: Vec<f64>,
     /// Reciprocal pivot of each row, then the `above` entries after it.
@@ -41,68 +41,26 @@ impl BandFactors {
     /// # Errors
     /// [`Error::Singular`] if a pivot vanishes.
     pub fn new(operator: &BandedCollocation) -> Result<Self, Error> {
-        Self::compensated(operator, usize::MAX)
-    }
-
-    /// Factors the entries within `half_bandwidth` of the diagonal, with those beyond added to the
-    /// diagonal of their row (diagonally compensated reduction; Liu and Liu 2020).
-    ///
-    /// # Errors
-    /// [`Error::Singular`] if a pivot vanishes.
-    pub fn compensated(operator: &BandedCollocation, half_bandwidth: usize) -> Result<Self, Error> {
+        let rows = operator.rows();
         let points = operator.points();
-        let limit = i64::try_from(half_bandwidth).unwrap_or(i64::MAX);
-        let Reach { below, above, wrapped: size } = Reach::of(operator, limit);
+        let (band, size) = reach(rows);
         let count = points - size;
         let mut factors = Self {
             count,
-            below,
-            above,
-            lower: memory::zeros(count * below),
-            upper: memory::zeros(count * (above + 1)),
+            band,
+            lower: memory::zeros(count * band.below),
+            upper: memory::zeros(count * (band.above + 1)),
             border: None,
         };
-        let mut border = (size > 0).then(|| Border::new(size, count));
-        let mut band = vec![0.0; below + above + 1];
-        let eliminate = kernel::elimination(below, above);
-        let Rows { width, first, weights, .. } = operator.rows();
-        for (j, (&first, weights)) in first.iter().zip(weights.chunks_exact(width)).enumerate() {
-            band.fill(0.0);
-            let plain = limit == i64::MAX && first >= 0 && first as usize + width <= count;
-            if plain && j < count {
-                // All weights that are not zero lie within the band.
-                let start = (first as usize + below).wrapping_sub(j);
-                for (k, &weight) in weights.iter().enumerate() {
-                    if let Some(entry) = band.get_mut(start.wrapping_add(k)) {
-                        *entry = weight;
-                    }
-                }
-            } else {
-                for (k, &weight) in weights.iter().enumerate().filter(|(_, w)| **w != 0.0) {
-                    let column = i64::from(first) + k as i64;
-                    let beyond = (column - j as i64).abs() > limit;
-                    let column = if beyond { j } else { operator.rows().column(first, k) };
-                    match &mut border {
-                        Some(border) if j >= count || column >= count => {
-                            border.set(j, column, count, weight);
-                        }
-                        _ => band[column + below - j] += weight,
-                    }
-                }
-            }
-            let lower = &mut factors.lower;
-            if j < count && !eliminate(j, below, above, &mut band, lower, &mut factors.upper) {
-                return Err(singular(points));
-            }
-        }
-        if let Some(mut border) = border {
+        let (lower, upper) = (&mut factors.lower, &mut factors.upper);
+        let mut sound = band_kernel::factor(rows, count, band, lower, upper);
+        if size > 0 {
+            let mut border = Border::new(operator, size);
             factors.substitute_band(&mut border.reach, size);
-            if !border.complete() {
-                return Err(singular(points));
-            }
+            sound &= border.complete();
             factors.border = Some(border);
         }
-        Ok(factors)
+        if sound { Ok(factors) } else { Err(singular(points)) }
     }
 
     /// Number of unknowns.
@@ -121,60 +79,62 @@ impl BandFactors {
     }
 
     fn substitute_band(&self, vectors: &mut [f64], dimension: usize) {
-        kernel::substitute(self.below, &self.lower, self.above, &self.upper, vectors, dimension);
+        band_kernel::substitute(self.band, &self.lower, &self.upper, vectors, dimension);
     }
 }
 
-/// How far rows reach from the diagonal to both sides, and how far those that wrap round do.
-struct Reach {
-    below: usize,
-    above: usize,
-    wrapped: usize,
-}
-
-impl Reach {
-    /// Of the entries within `limit` of the diagonal.
-    fn of(operator: &BandedCollocation, limit: i64) -> Self {
-        let rows = operator.rows();
-        let columns = rows.columns as i64;
-        let (mut below, mut above, mut wrapped) = (0, 0, 0);
-        for (j, (&first, weights)) in
-            rows.first.iter().zip(rows.weights.chunks_exact(rows.width)).enumerate()
-        {
-            for (k, &weight) in weights.iter().enumerate() {
-                let column = i64::from(first) + k as i64;
-                let offset = column - j as i64;
-                if weight != 0.0 && offset.abs() <= limit {
-                    below = below.max(-offset);
-                    above = above.max(offset);
-                    if column < 0 || column >= columns {
-                        wrapped = wrapped.max(offset.abs());
-                    }
-                }
-            }
+/// How far rows reach from the diagonal, and how far those that wrap round do.
+fn reach(rows: Rows<'_>) -> (Band, usize) {
+    let columns = rows.columns as i64;
+    let (mut below, mut above, mut wrapped) = (0, 0, 0);
+    let lines = rows.first.iter().zip(rows.weights.chunks_exact(rows.width));
+    for (j, (&first, weights)) in lines.enumerate() {
+        // The outermost weights that are not zero.
+        let (mut left, mut right) = (0, weights.len() - 1);
+        while left < right && weights[left] == 0.0 {
+            left += 1;
         }
-        Self { below: below as usize, above: above as usize, wrapped: wrapped as usize }
+        while right > left && weights[right] == 0.0 {
+            right -= 1;
+        }
+        let (left, right) = (i64::from(first) + left as i64, i64::from(first) + right as i64);
+        below = below.max(j as i64 - left);
+        above = above.max(right - j as i64);
+        if left < 0 {
+            wrapped = wrapped.max(j as i64 - left);
+        }
+        if right >= columns {
+            wrapped = wrapped.max(right - j as i64);
+        }
     }
+    (Band { below: below as usize, above: above as usize }, wrapped as usize)
 }
 
 impl Border {
-    fn new(size: usize, count: usize) -> Self {
-        Self {
+    /// Collects the entries outside the band: those of the last `size` rows and columns.
+    fn new(operator: &BandedCollocation, size: usize) -> Self {
+        let points = operator.points();
+        let count = points - size;
+        let mut border = Self {
             size,
-            reach: vec![0.0; count * size],
+            reach: memory::zeros(count * size),
             rows: Vec::new(),
             inverse: vec![0.0; size * size],
+        };
+        // No row reaches farther than `size` round the seam, nor farther than its width.
+        let near = operator.rows().width.max(size);
+        for j in (0..points).filter(|&j| j < near || j + 2 * near >= points) {
+            for (column, weight) in operator.row(j) {
+                if j < count && column >= count {
+                    border.reach[j * size + column - count] += weight;
+                } else if j >= count && column < count {
+                    border.rows.push((j - count, column, weight));
+                } else if j >= count {
+                    border.inverse[(j - count) * size + column - count] += weight;
+                }
+            }
         }
-    }
-
-    fn set(&mut self, j: usize, column: usize, count: usize, weight: f64) {
-        if j < count {
-            self.reach[j * self.size + column - count] += weight;
-        } else if column < count {
-            self.rows.push((j - count, column, weight));
-        } else {
-            self.inverse[(j - count) * self.size + column - count] += weight;
-        }
+        border
     }
 
     /// Forms and inverts the Schur complement, once `reach` holds `B^-1 E`.

@@ -1,5 +1,6 @@
 //! The collocation operator: rows of few weights, built once and applied many times.
 
+mod band_kernel;
 mod banded;
 mod build;
 mod factor;

@@ -155,6 +155,10 @@ pub fn interpolate<'a>(
     solve(Problem { data: view, scale, extent, parameters, knots }, options, &mut NoObserver)
 }
 
+/// Control points this many extents, and this many times the data, away from the origin are no fit
+/// that anybody wants.
+const WILD_SWING: f64 = 1e3;
+
 /// Share of the extent that rounding may take where no residual was demanded.
 const MOST_ROUNDING: f64 = 1e-9;
 
@@ -193,13 +197,22 @@ fn solve(
     let norms = state.norms();
     let reached_rounding = state.rounding_level();
     let iteration_returned = state.iteration();
-    let (control, mut vectors) = state.into_parts();
+    let (control, vectors) = state.into_parts();
     drop(rule);
     drop(operator);
     if termination == Termination::Residual && norms.max > stopping.residual {
         choices.push(format!(
             "residual: {:e}, what rounding leaves with control points this large",
             scale.undo(reached_rounding)
+        ));
+    }
+
+    let swing = reached_rounding / (ROUNDING * scale.up(extent.diagonal()));
+    if swing > WILD_SWING && reached_rounding > WILD_SWING * rounding_level {
+        choices.push(format!(
+            "caution: control points reach {swing:.0e} times the extent of the data; this \
+             interpolant swings wildly between points spaced so unevenly: lower the degree, or use \
+             centripetal parameters"
         ));
     }
 
@@ -214,7 +227,7 @@ fn solve(
         largest_deviation(&curve, data, &parameters, &residuals)?
     };
     let curve = unscale(curve, scale)?;
-    scale.undo_in_place(&mut vectors);
+    let difference_vectors = unscaled(Points::new(dimension, vectors)?, scale)?;
     for entry in &mut history {
         entry.max_residual = scale.undo(entry.max_residual);
         entry.rms_residual = scale.undo(entry.rms_residual);
@@ -243,14 +256,7 @@ fn solve(
         spacing_ratio,
         history,
     };
-    Ok(CurveFit {
-        curve,
-        parameters,
-        kept_points: None,
-        difference_vectors: Points::new(dimension, vectors)?,
-        report,
-        sequence,
-    })
+    Ok(CurveFit { curve, parameters, kept_points: None, difference_vectors, report, sequence })
 }
 
 fn stopping(

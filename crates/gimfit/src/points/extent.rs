@@ -53,42 +53,55 @@ impl Extent {
 /// Smallest and largest value of each coordinate; NaN where a value is not finite.
 fn bounds(coordinates: &[f64], dimension: usize) -> (Vec<f64>, Vec<f64>) {
     // The usual dimensions divide 12, so that 12 lanes walk the flat array side by side.
-    const LANES: usize = 12;
-    let lanes = if LANES.is_multiple_of(dimension) { LANES } else { dimension };
-    let mut low = vec![f64::INFINITY; lanes];
-    let mut high = vec![f64::NEG_INFINITY; lanes];
-    // Zero as long as all values are finite.
-    let mut flaw = vec![0.0; lanes];
-    let mut widen = |values: &[f64]| {
-        for (i, &x) in values.iter().enumerate() {
-            low[i] = if x < low[i] { x } else { low[i] };
-            high[i] = if x > high[i] { x } else { high[i] };
-            flaw[i] += x * 0.0;
+    let mut lanes = [Lane::EMPTY; 12];
+    let (chunks, rest) = coordinates.as_chunks::<12>();
+    if lanes.len().is_multiple_of(dimension) {
+        for chunk in chunks {
+            for (lane, &x) in lanes.iter_mut().zip(chunk) {
+                lane.widen(x);
+            }
         }
-    };
-    let chunks = coordinates.chunks_exact(lanes);
-    let rest = chunks.remainder();
-    if lanes == LANES {
-        // A length known at compile time lets the loop be unrolled.
-        coordinates.as_chunks::<LANES>().0.iter().for_each(|chunk| widen(chunk));
-    } else {
-        chunks.for_each(&mut widen);
+        lanes.iter_mut().zip(rest).for_each(|(lane, &x)| lane.widen(x));
+        let of = |i: usize| lanes.iter().skip(i).step_by(dimension);
+        return (0..dimension).map(|i| of(i).fold(Lane::EMPTY, Lane::join).ends()).unzip();
     }
-    widen(rest);
-    let fold = |lanes: &[f64], pick: fn(f64, f64) -> f64| -> Vec<f64> {
-        (0..dimension)
-            .map(|i| {
-                let own = lanes.iter().zip(&flaw).skip(i).step_by(dimension);
-                own.map(|(x, flaw)| x + flaw).reduce(pick_or_nan(pick)).unwrap_or(f64::NAN)
-            })
-            .collect()
-    };
-    (fold(&low, f64::min), fold(&high, f64::max))
+    let mut lanes = vec![Lane::EMPTY; dimension];
+    for point in coordinates.chunks_exact(dimension) {
+        lanes.iter_mut().zip(point).for_each(|(lane, &x)| lane.widen(x));
+    }
+    lanes.iter().map(Lane::ends).unzip()
 }
 
-/// `f64::min` and `f64::max` ignore NaN; here it must survive.
-fn pick_or_nan(pick: fn(f64, f64) -> f64) -> impl Fn(f64, f64) -> f64 {
-    move |a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { pick(a, b) }
+/// Running bounds of some values.
+#[derive(Debug, Clone, Copy)]
+struct Lane {
+    low: f64,
+    high: f64,
+    /// Zero as long as all values are finite, NaN afterwards.
+    flaw: f64,
+}
+
+impl Lane {
+    const EMPTY: Self = Self { low: f64::INFINITY, high: f64::NEG_INFINITY, flaw: 0.0 };
+
+    #[inline]
+    fn widen(&mut self, x: f64) {
+        self.low = if x < self.low { x } else { self.low };
+        self.high = if x > self.high { x } else { self.high };
+        self.flaw += x * 0.0;
+    }
+
+    fn join(self, other: &Self) -> Self {
+        Self {
+            low: self.low.min(other.low),
+            high: self.high.max(other.high),
+            flaw: self.flaw + other.flaw,
+        }
+    }
+
+    fn ends(&self) -> (f64, f64) {
+        (self.low + self.flaw, self.high + self.flaw)
+    }
 }
 
 fn first_not_finite(points: PointsView<'_>) -> Error {

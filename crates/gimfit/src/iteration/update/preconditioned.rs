@@ -22,7 +22,7 @@ impl Preconditioned {
     /// [`Error::Singular`].
     pub fn new(operator: &BandedCollocation, half_bandwidth: Option<usize>) -> Result<Self, Error> {
         let factors = match half_bandwidth {
-            Some(q) => BandFactors::compensated(operator, q)?,
+            Some(q) => BandFactors::new(&operator.compensated(q))?,
             None => BandFactors::new(operator)?,
         };
         Ok(Self { factors })
