@@ -85,7 +85,10 @@ fn ending(job: &Job<'_>, arguments: &CurveArguments) -> Ending {
         match report.termination {
             Termination::Iterations => "; allow more with --iterations, or use --method auto",
             Termination::Stalled =>
-                "; rounding allows no less, or the method crawls: try --method auto",
+                {
+                "; rounding allows no less or the method crawls: try --method auto, a lower --degree or \
+                 --parameters centripetal"
+            },
             Termination::Diverged => "; use --method auto",
             _ => "",
         }

@@ -2,9 +2,10 @@
 //! quadratic B-spline curves" (accepted 2007), section 5.2: three test functions. The paper shows
 //! figures without numbers or sampling, so the intervals are ours and errors are measured.
 
-use super::table::{Entry, Part, Source, Table, significant};
-use gimfit::fit_curve;
-use gimfit::{CurveFit, CurveOptions, KnotPlacement, Method, Parameterization, PointsView};
+use super::table::{Entry, Part, ROUNDING_LEVEL, Source, Table, significant};
+use gimfit::{
+    CurveFit, CurveOptions, KnotPlacement, Method, Parameterization, PointsView, fit_curve,
+};
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
@@ -66,7 +67,7 @@ pub(super) fn recompute() -> anyhow::Result<Table> {
             let between = between_the_data(function, steps)?;
             let order = previous.map(|coarser: f64| (coarser / between).log2());
             previous = Some(between);
-            write!(block, "  {:>6}", steps + 1)?;
+            write!(block, "  {:>7}", steps + 1)?;
             for pass in PASSES {
                 let error = errors.get(pass - 1).copied().unwrap_or(f64::NAN);
                 write!(block, "  {:>9}", significant_or_rounding(error))?;
@@ -91,7 +92,8 @@ pub(super) fn recompute() -> anyhow::Result<Table> {
     }
     parts.push(Part::Entries {
         heading: format!(
-            "Error of a pass over that of the pass before, largest of passes 2 to {LAST_PASS}"
+            "Error of a pass over that of the pass before, largest of passes 2 to {LAST_PASS} above \
+             rounding"
         ),
         source: Source::Theory,
         entries: halvings,
@@ -106,17 +108,17 @@ pub(super) fn recompute() -> anyhow::Result<Table> {
             .into(),
     ));
     Ok(Table {
-        title: "Wang, Li, Jiang and Li 2007, section 5.2, measured (figures only in the paper)",
+        title: "Wang, Li, Jiang and Li 2007, section 5.2, measured: closed curves of degree 2",
         parts,
     })
 }
 
 fn heading(function: &Function) -> anyhow::Result<String> {
     let mut text = format!(
-        "{} on {}, closed, degree 2: largest error at the data in pass k; between the data, limit\n",
+        "{} on {}: largest error at the data in pass k, and of the limit between the data\n",
         function.name, function.interval_name
     );
-    write!(text, "  {:>6}", "points")?;
+    write!(text, "  {:>7}", "samples")?;
     for pass in PASSES {
         write!(text, "  {:>9}", format!("k={pass}"))?;
     }
@@ -166,10 +168,12 @@ fn between_the_data(function: &Function, steps: usize) -> anyhow::Result<f64> {
     Ok(largest)
 }
 
+/// Of the passes above rounding level. No function here exceeds 1.
 fn largest_quotient(errors: &[f64]) -> f64 {
-    errors.windows(2).map(|pair| pair[1] / pair[0]).fold(0.0, f64::max)
+    let pairs = errors.windows(2).filter(|pair| pair[1] > ROUNDING_LEVEL);
+    pairs.map(|pair| pair[1] / pair[0]).fold(0.0, f64::max)
 }
 
 fn significant_or_rounding(error: f64) -> String {
-    if error < 1e-15 { "0".into() } else { significant(error, 3) }
+    if error <= ROUNDING_LEVEL { "rounding".into() } else { significant(error, 3) }
 }

@@ -49,7 +49,7 @@ pub(super) fn smallest_eigenvalue(operator: &BandedCollocation) -> Result<f64, E
 /// scaled back to length 1, so that rounding never takes over.
 pub(super) fn rate(operator: &BandedCollocation, rule: &mut dyn UpdateRule) -> f64 {
     /// Steps before the measurement, until slower modes are gone.
-    const FIRST: usize = 6000;
+    const FIRST: usize = 16_000;
     /// An even number: modes of opposite sign make single steps alternate.
     const MEASURED: usize = 200;
     let count = operator.points();
@@ -57,10 +57,11 @@ pub(super) fn rate(operator: &BandedCollocation, rule: &mut dyn UpdateRule) -> f
     let mut residual: Vec<f64> = (0..count)
         .map(|j| if j % 2 == 0 { 1.0 } else { -1.0 } + 0.1 * (j * j % 7) as f64)
         .collect();
+    let mut adjusting = vec![0.0; count];
     let mut change = vec![0.0; count];
     let mut logarithm = 0.0;
     for step in 0..FIRST + MEASURED {
-        let mut adjusting = residual.clone();
+        adjusting.copy_from_slice(&residual);
         rule.adjust(step, &mut adjusting, 1);
         operator.apply(&adjusting, 1, &mut change);
         residual.iter_mut().zip(&change).for_each(|(r, change)| *r -= change);

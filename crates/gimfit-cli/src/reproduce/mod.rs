@@ -61,7 +61,7 @@ pub(crate) fn run(arguments: &ReproduceArguments) -> anyhow::Result<Ending> {
     for reproduction in chosen {
         let table = (reproduction.recompute)()?;
         writeln!(text, "{}\n", table.text(reproduction.name))?;
-        writeln!(summaries, "{}: {}", reproduction.name, table.summary())?;
+        summaries += &table.summary(reproduction.name);
         met &= table.agrees();
     }
     output::result(&(text + &summaries))?;
@@ -102,7 +102,8 @@ mod tests {
     fn lines_fit_into_100_columns() {
         for reproduction in &REPRODUCTIONS {
             let table = (reproduction.recompute)().unwrap();
-            let text = table.text(reproduction.name);
+            let name = reproduction.name;
+            let text = table.text(name) + &table.summary(name);
             assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
         }
     }

@@ -62,8 +62,8 @@ pub(super) fn recompute() -> anyhow::Result<Table> {
                 |row| PRINTED[row].2,
             ),
             Part::Text(
-                "  The last entry lies 36 units of double rounding above zero: its digits depend \
-                 on\n  the order of summation, so only its size is judged.\n"
+                "  The last entry lies close to rounding level (8.09726e-15 in exact arithmetic): its digits\n  \
+                 depend on the order of summation, so only its size is judged.\n"
                     .into(),
             ),
             Part::Entries {

@@ -37,7 +37,7 @@ pub(super) struct Entry {
 /// Rounding errors of the recomputation, in units of the largest coordinate.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Below this share of the largest coordinate, residuals are made of rounding errors.
-const ROUNDING_LEVEL: f64 = 64.0 * f64::EPSILON;
+pub(super) const ROUNDING_LEVEL: f64 = 64.0 * f64::EPSILON;
 
 impl Entry {
     /// Compares with a number printed to `digits` significant digits: the recomputed one must round
@@ -163,13 +163,16 @@ impl Table {
         text
     }
 
-    /// How many entries of which source agree.
-    pub(super) fn summary(&self) -> String {
-        let mut sums = Vec::new();
+    /// How many entries agree: a line for each source of references.
+    pub(super) fn summary(&self, name: &str) -> String {
+        let mut text = String::new();
         for (source, what) in [
-            (Source::Paper, "entries"),
-            (Source::Theory, "values of theory"),
-            (Source::Independent, "values recomputed independently"),
+            (Source::Paper, ["entry", "entries"]),
+            (Source::Theory, ["value of theory", "values of theory"]),
+            (
+                Source::Independent,
+                ["value recomputed independently", "values recomputed independently"],
+            ),
         ] {
             let entries: Vec<Entry> = self
                 .parts
@@ -184,21 +187,30 @@ impl Table {
             if entries.is_empty() {
                 continue;
             }
-            let mut sum =
-                format!("{} {what}, {} agree", entries.len(), count(&entries, Verdict::Agrees));
+            let mut sum = format!(
+                "{}, {} agree",
+                counted(entries.len(), what),
+                count(&entries, Verdict::Agrees)
+            );
             let rounded = count(&entries, Verdict::RoundingLevel);
             if rounded > 0 {
                 sum += &format!(", {rounded} at rounding level");
             }
             if source == Source::Paper {
-                let misprints = count(&entries, Verdict::Misprint);
-                sum += &format!(", {misprints} misprints in the paper");
+                let misprints = counted(count(&entries, Verdict::Misprint), MISPRINTS);
+                sum += &format!(", {misprints} in the paper");
             }
             sum += &format!(", {} disagree", count(&entries, Verdict::Disagrees));
-            sums.push(sum);
+            text += &format!("{name}: {sum}\n");
         }
-        sums.join("; ")
+        text
     }
+}
+
+const MISPRINTS: [&str; 2] = ["misprint", "misprints"];
+
+fn counted(count: usize, [one, many]: [&str; 2]) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
 }
 
 fn count(entries: &[Entry], verdict: Verdict) -> usize {
@@ -307,7 +319,8 @@ mod tests {
             }],
         };
         assert!(table.agrees() && table.text("").contains("exponent must be"));
-        assert_eq!(table.summary(), "2 entries, 1 agree, 1 misprints in the paper, 0 disagree");
+        let summary = "name: 2 entries, 1 agree, 1 misprint in the paper, 0 disagree\n";
+        assert_eq!(table.summary("name"), summary);
     }
 
     #[test]

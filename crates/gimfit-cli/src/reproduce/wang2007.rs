@@ -4,8 +4,9 @@
 
 use super::table::{Entry, Part, Source, Table};
 use anyhow::Context;
-use gimfit::fit_curve;
-use gimfit::{Curve, CurveFit, CurveOptions, KnotPlacement, Method, Parameterization, PointsView};
+use gimfit::{
+    Curve, CurveFit, CurveOptions, KnotPlacement, Method, Parameterization, PointsView, fit_curve,
+};
 
 /// The y coordinates of the design data, i = 1 to 7. x counts the points; the paper sets it aside
 /// where the curve closes.

@@ -12,5 +12,5 @@ pub(super) fn recompute() -> anyhow::Result<Table> {
     let mut parts = uniform::parts()?;
     parts.extend(ends::parts()?);
     parts.push(rates::part()?);
-    Ok(Table { title: "theory of uniform B-spline collocation, and spectra off it", parts })
+    Ok(Table { title: "theory of uniform B-spline collocation; spectra of other spacings", parts })
 }

@@ -16,7 +16,7 @@ const CLOSED_QUADRATIC: [&str; 4] =
 const OPEN_CUBIC: [&str; 4] = ["0.7171770367", "0.5590615830", "0.5335664231", "0.2767728895"];
 
 /// What slower modes leave after the measured steps.
-const RELATIVE: f64 = 1e-6;
+const RELATIVE: f64 = 1e-8;
 
 pub(super) fn part() -> anyhow::Result<Part> {
     let steps = (0..OPEN_POINTS).map(|j| j as f64).collect();
