@@ -17,14 +17,14 @@ pub(super) struct Band {
 
 /// Factors the first `count` rows and columns; entries in other columns are passed over.
 ///
-/// `lower` receives for each row the multipliers of the `below` rows before it, `upper` the
+/// `lower` and `upper`, empty at first, receive for each row the multipliers of the `below` rows before it, and the
 /// reciprocal pivot and the `above` entries after it. False if a pivot vanishes.
 pub(super) fn factor(
     rows: Rows<'_>,
     count: usize,
     band: Band,
-    lower: &mut [f64],
-    upper: &mut [f64],
+    lower: &mut Vec<f64>,
+    upper: &mut Vec<f64>,
 ) -> bool {
     match (rows.width, band.below, band.above) {
         (4, 1, 1) => factor_of::<4, 1, 1, 3>(rows, count, band, lower, upper),
@@ -42,8 +42,8 @@ fn factor_of<const W: usize, const B: usize, const A: usize, const N: usize>(
     rows: Rows<'_>,
     count: usize,
     band: Band,
-    lower: &mut [f64],
-    upper: &mut [f64],
+    lower: &mut Vec<f64>,
+    upper: &mut Vec<f64>,
 ) -> bool {
     let Band { below, above } = if W == 0 { band } else { Band { below: B, above: A } };
     let width = if W == 0 { rows.width } else { W };
@@ -73,9 +73,8 @@ fn factor_of<const W: usize, const B: usize, const A: usize, const N: usize>(
         }
         entries[below] = entries[below].recip();
         sound &= entries[below].is_finite();
-        let multipliers = &mut lower[j * below..][..below];
-        multipliers.copy_from_slice(&entries[..below]);
-        upper[j * wide..][..wide].copy_from_slice(&entries[below..]);
+        lower.extend_from_slice(&entries[..below]);
+        upper.extend_from_slice(&entries[below..]);
     }
     sound
 }

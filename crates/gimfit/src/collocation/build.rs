@@ -106,15 +106,21 @@ fn collocate(t: &[f64], knots: &KnotVector) -> CollocationRows {
     let degree = knots.degree();
     let width = degree + 1;
     let mut first = memory::with_capacity(t.len());
-    let mut weights = memory::zeros(t.len() * width);
+    let mut weights = memory::with_capacity(t.len() * width);
+    let mut values = [0.0; MAX_DEGREE + 1];
     let mut span = degree;
     let mut previous = f64::NEG_INFINITY;
-    for (&t, row) in t.iter().zip(weights.chunks_exact_mut(width)) {
+    for &t in t {
         // Only the seam of a closed curve steps back.
         span = knots.span_from(if t < previous { degree } else { span }, t);
         previous = t;
-        basis_functions(knots.values(), degree, span, t, row);
+        basis_functions(knots.values(), degree, span, t, &mut values);
         first.push((span - degree) as i32);
+        // A length known at compile time spares a call per row.
+        match width {
+            4 => weights.extend_from_slice(&values[..4]),
+            _ => weights.extend_from_slice(&values[..width]),
+        }
     }
     CollocationRows { width, first, weights }
 }
@@ -144,17 +150,33 @@ impl CollocationRows {
 
     /// The stored position for data point 0 that gives the diagonal its largest smallest entry.
     fn best_shift(&self) -> usize {
-        let smallest = |shift: usize| {
-            let rows = self.first.iter().zip(self.weights.chunks_exact(self.width));
-            rows.enumerate()
-                .map(|(j, (&first, weights))| {
-                    let k = self.unwrapped(j as i32 + shift as i32 - first);
-                    usize::try_from(k).ok().and_then(|k| weights.get(k)).copied().unwrap_or(0.0)
-                })
-                .fold(f64::INFINITY, f64::min)
-        };
-        let worth: Vec<f64> = (0..self.width).map(smallest).collect();
-        (0..self.width).fold(0, |best, shift| if worth[shift] > worth[best] { shift } else { best })
+        // From the middle outwards, so that the best comes early and the others are given up soon.
+        let middle = self.width / 2;
+        let mut candidates: Vec<usize> = (0..self.width).collect();
+        candidates.sort_by_key(|shift| shift.abs_diff(middle));
+        let (mut best, mut worth) = (middle, 0.0);
+        for shift in candidates {
+            let smallest = self.smallest_diagonal(shift, worth);
+            if smallest > worth {
+                (best, worth) = (shift, smallest);
+            }
+        }
+        best
+    }
+
+    /// Smallest diagonal entry after a shift; 0 as soon as it is known not to exceed `least`.
+    fn smallest_diagonal(&self, shift: usize, least: f64) -> f64 {
+        let mut smallest = f64::INFINITY;
+        let rows = self.first.iter().zip(self.weights.chunks_exact(self.width));
+        for (j, (&first, weights)) in rows.enumerate() {
+            let k = self.unwrapped(j as i32 + shift as i32 - first);
+            let entry = usize::try_from(k).ok().and_then(|k| weights.get(k)).copied();
+            smallest = smallest.min(entry.unwrap_or(0.0));
+            if smallest <= least {
+                return 0.0;
+            }
+        }
+        smallest
     }
 
     /// Renumbers the columns so that control point j belongs to data point j.
@@ -168,6 +190,9 @@ impl CollocationRows {
 
     /// An offset into a row of a closed curve, brought to the lap nearest the row's middle.
     fn unwrapped(&self, k: i32) -> i32 {
+        if (0..self.width as i32).contains(&k) {
+            return k;
+        }
         let (count, middle) = (self.first.len() as i32, self.width as i32 / 2);
         (k - middle + count / 2).rem_euclid(count) - count / 2 + middle
     }

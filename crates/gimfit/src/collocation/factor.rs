@@ -48,8 +48,8 @@ impl BandFactors {
         let mut factors = Self {
             count,
             band,
-            lower: memory::zeros(count * band.below),
-            upper: memory::zeros(count * (band.above + 1)),
+            lower: memory::with_capacity(count * band.below),
+            upper: memory::with_capacity(count * (band.above + 1)),
             border: None,
         };
         let (lower, upper) = (&mut factors.lower, &mut factors.upper);
@@ -89,8 +89,14 @@ fn reach(rows: Rows<'_>) -> (Band, usize) {
     let (mut below, mut above, mut wrapped) = (0, 0, 0);
     let lines = rows.first.iter().zip(rows.weights.chunks_exact(rows.width));
     for (j, (&first, weights)) in lines.enumerate() {
-        // The outermost weights that are not zero.
+        // The outermost weights that are not zero, looked for only where the band could grow.
         let (mut left, mut right) = (0, weights.len() - 1);
+        let inside = |column: i64| -below <= column - j as i64 && column - (j as i64) <= above;
+        let within = |column: i64| (0..columns).contains(&column);
+        let plain = |column: i64| inside(column) && within(column);
+        if plain(i64::from(first)) && plain(i64::from(first) + right as i64) {
+            continue;
+        }
         while left < right && weights[left] == 0.0 {
             left += 1;
         }

@@ -333,6 +333,9 @@ fn unscale(curve: Curve, scale: PowerOfTwoScale) -> Result<Curve, Error> {
 
 /// Brings control points back into the unit of the data.
 pub(super) fn unscaled(points: Points, scale: PowerOfTwoScale) -> Result<Points, Error> {
+    if scale.is_identity() {
+        return Ok(points);
+    }
     let dimension = points.dimension();
     let mut coordinates = points.into_coordinates();
     scale.undo_in_place(&mut coordinates);

@@ -14,6 +14,7 @@ pub struct IterationState<'a> {
     operator: &'a dyn CollocationOperator,
     data: &'a [f64],
     dimension: usize,
+    /// Empty until the first step: before it, the control points are the data.
     control: Vec<f64>,
     /// Difference vectors between steps; a rule turns them into adjusting vectors in place.
     vectors: Vec<f64>,
@@ -30,7 +31,7 @@ impl<'a> IterationState<'a> {
             operator,
             data,
             dimension,
-            control: memory::copy_of(data),
+            control: memory::with_capacity(data.len()),
             vectors: memory::zeros(data.len()),
             norms: ResidualNorms::default(),
             iteration: 0,
@@ -41,7 +42,7 @@ impl<'a> IterationState<'a> {
 
     /// Goes back to the start, reusing all memory.
     pub fn restart(&mut self) {
-        self.control.copy_from_slice(self.data);
+        self.control.clear();
         self.iteration = 0;
         self.measure();
     }
@@ -50,27 +51,26 @@ impl<'a> IterationState<'a> {
     /// difference vectors. Allocates nothing.
     pub fn step(&mut self, rule: &mut dyn UpdateRule) {
         rule.adjust(self.iteration, &mut self.vectors, self.dimension);
-        for (p, delta) in self.control.iter_mut().zip(&self.vectors) {
-            *p += delta;
+        if self.control.is_empty() {
+            self.control.extend(self.data.iter().zip(&self.vectors).map(|(q, delta)| q + delta));
+        } else {
+            self.control.iter_mut().zip(&self.vectors).for_each(|(p, delta)| *p += delta);
         }
         self.iteration += 1;
         self.measure();
     }
 
     fn measure(&mut self) {
-        self.norms = self.operator.difference_vectors(
-            self.data,
-            &self.control,
-            self.dimension,
-            &mut self.vectors,
-        );
+        let control = if self.control.is_empty() { self.data } else { &self.control };
+        self.norms =
+            self.operator.difference_vectors(self.data, control, self.dimension, &mut self.vectors);
     }
 
     /// Residual that rounding alone may leave: 8 units in the last place of the largest coordinate
     /// of a control point.
     #[must_use]
     pub fn rounding_level(&self) -> f64 {
-        ROUNDING * self.control.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
+        ROUNDING * self.control().iter().fold(0.0, |most: f64, x| most.max(x.abs()))
     }
 
     /// Steps taken.
@@ -88,7 +88,7 @@ impl<'a> IterationState<'a> {
     /// The control points held, shape (points, dimension).
     #[must_use]
     pub fn control(&self) -> &[f64] {
-        &self.control
+        if self.control.is_empty() { self.data } else { &self.control }
     }
 
     /// Their difference vectors, shape (points, dimension).
@@ -105,7 +105,10 @@ impl<'a> IterationState<'a> {
 
     /// Control points and difference vectors, by value.
     #[must_use]
-    pub fn into_parts(self) -> (Vec<f64>, Vec<f64>) {
+    pub fn into_parts(mut self) -> (Vec<f64>, Vec<f64>) {
+        if self.control.is_empty() {
+            self.control.extend_from_slice(self.data);
+        }
         (self.control, self.vectors)
     }
 }

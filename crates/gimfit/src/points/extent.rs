@@ -53,54 +53,64 @@ impl Extent {
 /// Smallest and largest value of each coordinate; NaN where a value is not finite.
 fn bounds(coordinates: &[f64], dimension: usize) -> (Vec<f64>, Vec<f64>) {
     // The usual dimensions divide 12, so that 12 lanes walk the flat array side by side.
-    let mut lanes = [Lane::EMPTY; 12];
-    let (chunks, rest) = coordinates.as_chunks::<12>();
-    if lanes.len().is_multiple_of(dimension) {
-        for chunk in chunks {
-            for (lane, &x) in lanes.iter_mut().zip(chunk) {
-                lane.widen(x);
-            }
-        }
-        lanes.iter_mut().zip(rest).for_each(|(lane, &x)| lane.widen(x));
-        let of = |i: usize| lanes.iter().skip(i).step_by(dimension);
-        return (0..dimension).map(|i| of(i).fold(Lane::EMPTY, Lane::join).ends()).unzip();
+    if 12_usize.is_multiple_of(dimension) {
+        let mut lanes = Lanes::<12>::new();
+        let (chunks, rest) = coordinates.as_chunks::<12>();
+        chunks.iter().for_each(|chunk| lanes.widen(chunk));
+        return lanes.joined(dimension, rest);
     }
-    let mut lanes = vec![Lane::EMPTY; dimension];
-    for point in coordinates.chunks_exact(dimension) {
-        lanes.iter_mut().zip(point).for_each(|(lane, &x)| lane.widen(x));
-    }
-    lanes.iter().map(Lane::ends).unzip()
+    (0..dimension)
+        .map(|i| {
+            let mut lane = Lanes::<1>::new();
+            coordinates.iter().skip(i).step_by(dimension).for_each(|&x| lane.widen(&[x]));
+            let (low, high) = lane.joined(1, &[]);
+            (low[0], high[0])
+        })
+        .unzip()
 }
 
-/// Running bounds of some values.
-#[derive(Debug, Clone, Copy)]
-struct Lane {
-    low: f64,
-    high: f64,
+/// Running bounds of `N` interleaved sequences.
+struct Lanes<const N: usize> {
+    low: [f64; N],
+    high: [f64; N],
     /// Zero as long as all values are finite, NaN afterwards.
-    flaw: f64,
+    flaw: [f64; N],
 }
 
-impl Lane {
-    const EMPTY: Self = Self { low: f64::INFINITY, high: f64::NEG_INFINITY, flaw: 0.0 };
+impl<const N: usize> Lanes<N> {
+    fn new() -> Self {
+        Self { low: [f64::INFINITY; N], high: [f64::NEG_INFINITY; N], flaw: [0.0; N] }
+    }
 
     #[inline]
-    fn widen(&mut self, x: f64) {
-        self.low = if x < self.low { x } else { self.low };
-        self.high = if x > self.high { x } else { self.high };
-        self.flaw += x * 0.0;
-    }
-
-    fn join(self, other: &Self) -> Self {
-        Self {
-            low: self.low.min(other.low),
-            high: self.high.max(other.high),
-            flaw: self.flaw + other.flaw,
+    fn widen(&mut self, values: &[f64; N]) {
+        for i in 0..N {
+            let x = values[i];
+            self.low[i] = if x < self.low[i] { x } else { self.low[i] };
+            self.high[i] = if x > self.high[i] { x } else { self.high[i] };
+            self.flaw[i] += x * 0.0;
         }
     }
 
-    fn ends(&self) -> (f64, f64) {
-        (self.low + self.flaw, self.high + self.flaw)
+    /// Bounds of each coordinate, where lane `i` holds coordinate `i % dimension` and `rest` goes on
+    /// from lane 0; NaN where a value was not finite.
+    fn joined(&self, dimension: usize, rest: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        (0..dimension)
+            .map(|i| {
+                let (mut low, mut high, mut flaw) = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
+                for lane in (i..N).step_by(dimension) {
+                    low = low.min(self.low[lane]);
+                    high = high.max(self.high[lane]);
+                    flaw += self.flaw[lane];
+                }
+                for &x in rest.iter().skip(i).step_by(dimension) {
+                    low = low.min(x);
+                    high = high.max(x);
+                    flaw += x * 0.0;
+                }
+                (low + flaw, high + flaw)
+            })
+            .unzip()
     }
 }
 
