@@ -1,0 +1,77 @@
+"""The points, parameters and knots of the workloads, from fixed seeds, as files of raw doubles."""
+import os
+
+import numpy as np
+
+FOLDER = os.environ.get("BENCH_DATA", "")
+DEGREE = 3
+
+
+def path(name):
+    return os.path.join(FOLDER, name + ".f64")
+
+
+def save(name, values):
+    np.ascontiguousarray(values, dtype="<f8").tofile(path(name))
+
+
+def load(name, *shape):
+    values = np.fromfile(path(name), dtype="<f8")
+    return values.reshape(shape) if shape else values
+
+
+def open_points(count):
+    """A noisy helix, about 200 points a turn, with jittered steps."""
+    random = np.random.default_rng(1)
+    turns = max(2.0, count / 200.0)
+    angle = 2 * np.pi * turns / count * (np.arange(count) + 0.3 * (random.random(count) - 0.5))
+    radius = 1 + 0.2 * np.cos(0.37 * angle)
+    points = np.stack([radius * np.cos(angle), radius * np.sin(angle), 0.05 * angle], axis=1)
+    return points + random.standard_normal((count, 3)) * (0.02 * 2 * np.pi * turns / count)
+
+
+def closed_points(count):
+    """A noisy curve winding round a torus, about 200 points a winding, with jittered steps."""
+    random = np.random.default_rng(2)
+    windings = max(2, round(count / 200.0))
+    angle = 2 * np.pi / count * (np.arange(count) + 0.3 * (random.random(count) - 0.5))
+    radius = 2 + np.cos(windings * angle)
+    points = np.stack(
+        [radius * np.cos(angle), radius * np.sin(angle), np.sin(windings * angle)], axis=1)
+    return points + random.standard_normal((count, 3)) * (0.02 * 2 * np.pi * windings / count)
+
+
+def chord_lengths(points):
+    parameters = np.zeros(len(points))
+    np.cumsum(np.sqrt(((points[1:] - points[:-1]) ** 2).sum(1)), out=parameters[1:])
+    return parameters
+
+
+def make(workload, count):
+    """Writes points (.p), parameters (.u) and, for the open workload, not-a-knot knots (.t)."""
+    name = f"{workload}_{count}"
+    if workload == "W1":
+        points = open_points(count)
+        parameters = chord_lengths(points)
+        first, last = [parameters[0]] * 4, [parameters[-1]] * 4
+        save(name + ".t", np.concatenate([first, parameters[2:-2], last]))
+    else:
+        points = closed_points(count)
+        parameters = chord_lengths(np.vstack([points, points[:1]]))
+    save(name + ".p", points)
+    save(name + ".u", parameters)
+
+
+def full_knots(workload, count):
+    """The knot vector both sides use: as given, or the parameters repeated with their period."""
+    if workload == "W1":
+        return load(f"W1_{count}.t")
+    u = load(f"W2_{count}.u")
+    period = u[-1] - u[0]
+    return np.concatenate([u[-DEGREE - 1:-1] - period, u, u[1:DEGREE + 1] + period])
+
+
+def remove(workload, count):
+    for kind in ("p", "u", "t"):
+        if os.path.exists(path(f"{workload}_{count}.{kind}")):
+            os.remove(path(f"{workload}_{count}.{kind}"))

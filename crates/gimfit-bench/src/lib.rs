@@ -1,0 +1,8 @@
+//! What the benchmarks of gimfit share: data sets, clocks, and the workloads that are also given to
+//! other libraries.
+
+pub mod clock;
+pub mod data;
+pub mod memory;
+pub mod report;
+pub mod workload;

@@ -1,0 +1,55 @@
+//! The program `gimfit-bench`: gimfit's side of comparisons with other libraries.
+//!
+//! `--list` prints the cases as lines `workload<TAB>peer<TAB>sizes<TAB>note`; a case, given as
+//! `<workload> <peer> <size>`, prints one line `RESULT {json}`.
+
+use anyhow::{bail, ensure};
+use clap::Parser;
+use gimfit_bench::report::{self, PEER};
+use gimfit_bench::workload::Workload;
+use std::io::Write;
+use std::path::PathBuf;
+
+const SIZES: &str = "100,1000,10000,100000,1000000,10000000";
+
+#[derive(Debug, Parser)]
+#[command(about = "Times gimfit on data in $BENCH_DATA (or bench-data in the temporary folder)")]
+struct Arguments {
+    /// Print the cases
+    #[arg(long, exclusive = true)]
+    list: bool,
+    /// W1 or W2, then gimfit.interpolate, then the number of points
+    #[arg(value_names = ["WORKLOAD", "PEER", "SIZE"], num_args = 3)]
+    case: Vec<String>,
+    /// How long to repeat the case; otherwise $BENCH_SECONDS, or 3
+    #[arg(long)]
+    seconds: Option<f64>,
+    /// File that receives the control points as raw little-endian doubles
+    #[arg(long, value_name = "FILE")]
+    control_points: Option<PathBuf>,
+}
+
+fn main() -> anyhow::Result<()> {
+    let arguments = Arguments::parse();
+    let mut output = std::io::stdout().lock();
+    if arguments.list {
+        for workload in Workload::ALL {
+            writeln!(output, "{}\t{PEER}\t{SIZES}\t{}", workload.name(), workload.note())?;
+        }
+        return Ok(());
+    }
+    let [workload, peer, size] = arguments.case.as_slice() else {
+        bail!("a case is <workload> {PEER} <size>; --list prints them");
+    };
+    ensure!(peer == PEER, "there is no peer {peer}; ours is {PEER}");
+    let workload = Workload::named(workload)?;
+    let control_points = arguments.control_points.as_deref();
+    let seconds = match (arguments.seconds, std::env::var("BENCH_SECONDS")) {
+        (Some(seconds), _) => seconds,
+        (None, Ok(text)) => text.parse()?,
+        (None, Err(_)) => 3.0,
+    };
+    let result = report::run(workload, size, seconds, control_points)?;
+    writeln!(output, "RESULT {result}")?;
+    Ok(())
+}
