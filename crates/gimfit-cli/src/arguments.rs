@@ -275,7 +275,8 @@ pub(crate) struct EvaluateArguments {
     #[arg(long, value_name = "N")]
     pub(crate) samples: Option<usize>,
 
-    /// File of parameters to evaluate at; - for standard input
+    /// File of parameters to evaluate at; - for standard input. On a closed curve they may lie
+    /// beyond the domain
     #[arg(long, value_name = "FILE")]
     pub(crate) at: Option<PathBuf>,
 

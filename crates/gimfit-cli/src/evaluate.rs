@@ -71,8 +71,14 @@ fn parameters(curve: &Curve, arguments: &EvaluateArguments) -> anyhow::Result<Ve
         return Ok(curve.equal_steps(count));
     }
     let Some(path) = &arguments.at else { bail!("give --samples or --at") };
-    let list = input::numbers(path, "--at")?;
+    let mut list = input::numbers(path, "--at")?;
     let (start, end) = curve.domain();
+    if curve.is_periodic() {
+        // A closed curve goes on for ever; only parameters outside the domain are brought back.
+        for t in list.iter_mut().filter(|t| t.is_finite() && !(start..=end).contains(*t)) {
+            *t = (start + (*t - start).rem_euclid(end - start)).clamp(start, end);
+        }
+    }
     if let Some(index) = list.iter().position(|t| !(start..=end).contains(t)) {
         bail!(
             "{}: number {} is {}, outside the domain [{start}, {end}] of the curve",

@@ -97,7 +97,9 @@ fn of_points(table: &PointTable) -> anyhow::Result<Facts> {
         facts.add("longest_step", longest);
         facts.add("gap_last_to_first", distance(view.point(last), view.point(0)));
     }
-    facts.add("notes", table.notes.clone());
+    if !table.notes.is_empty() {
+        facts.add("notes", table.notes.clone());
+    }
     Ok(facts)
 }
 

@@ -142,6 +142,11 @@ pub enum Error {
         /// The cause, as far as it is known, and the remedy.
         why: &'static str,
     },
+    /// Numbers on the way to the curve left the range of doubles.
+    #[error(
+        "the fit leaves the range of doubles: parameters lie too close together, or coordinates too far apart, for this degree; use uniform or centripetal parameters, or scale the data"
+    )]
+    LeavesDoubles,
     /// Choices that exclude each other.
     #[error("{what} cannot be used with {with}: {why}")]
     Incompatible {

@@ -63,7 +63,28 @@ pub use parameters::Parameterization;
 pub use points::{Duplicates, Points, PointsView};
 pub use report::CurveReport;
 
-/// The Rust example of the README, run as a test.
+/// The Rust examples of the README and of the documentation pages, run as tests.
 #[cfg(doctest)]
-#[doc = include_str!("../../../README.md")]
-struct Readme;
+mod pages {
+    macro_rules! pages {
+        ($($name:ident: $path:literal,)*) => {
+            $(#[doc = include_str!(concat!("../../../", $path))] struct $name;)*
+        };
+    }
+    pages! {
+        Readme: "README.md",
+        Contributing: "CONTRIBUTING.md",
+        Auto: "docs/methods/auto.md",
+        Chebyshev: "docs/methods/chebyshev.md",
+        Closed: "docs/methods/closed.md",
+        FootPoints: "docs/methods/foot-points.md",
+        GaussSeidel: "docs/methods/gauss-seidel.md",
+        Jacobi: "docs/methods/jacobi.md",
+        Knots: "docs/methods/knots.md",
+        Parameters: "docs/methods/parameters.md",
+        Pia: "docs/methods/pia.md",
+        Preconditioned: "docs/methods/preconditioned.md",
+        Stopping: "docs/methods/stopping.md",
+        Weighted: "docs/methods/weighted.md",
+    }
+}

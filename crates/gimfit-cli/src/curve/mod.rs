@@ -6,7 +6,7 @@ mod plan;
 mod print;
 mod save;
 
-use crate::arguments::CurveArguments;
+use crate::arguments::{CurveArguments, MethodChoice};
 use crate::progress::Progress;
 use crate::signal::{self, Stage};
 use crate::{Ending, output};
@@ -49,7 +49,8 @@ pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
         report.seconds = Some(Seconds { read, fit: fitted, write: None });
     }
     let mut job = Job { table: &table, fit: &fit, document };
-    let written = save::outputs(&mut job, arguments)?;
+    let mut written = save::outputs(&mut job, arguments)?;
+    written.extend(arguments.report.iter().map(|path| format!("{}: report", path.display())));
     let text = print::report(&job, &written);
     save::report(&job, arguments, &text)?;
     let to_output = arguments.output.iter().any(|path| path.as_os_str() == "-");
@@ -82,16 +83,25 @@ fn ending(job: &Job<'_>, arguments: &CurveArguments) -> Ending {
         report.termination,
         report.max_residual,
         report.iterations,
-        match report.termination {
-            Termination::Iterations => "; allow more with --iterations, or use --method auto",
-            Termination::Stalled =>
-                {
-                "; rounding allows no less or the method crawls: try --method auto, a lower --degree or \
-                 --parameters centripetal"
-            },
-            Termination::Diverged => "; use --method auto",
-            _ => "",
-        }
+        advice(report.termination, arguments.method)
     ));
     Ending::NotMet
+}
+
+/// What to try next.
+fn advice(termination: Termination, method: MethodChoice) -> &'static str {
+    let auto = method == MethodChoice::Auto;
+    match termination {
+        Termination::Iterations if auto => "; allow more with --iterations",
+        Termination::Iterations => "; allow more with --iterations, or use --method auto",
+        Termination::Stalled if auto => {
+            "; rounding allows no less: try a lower --degree or --parameters centripetal"
+        }
+        Termination::Stalled => {
+            "; rounding allows no less, or the method crawls: try --method auto"
+        }
+        Termination::Diverged if auto => "; try a lower --degree or --parameters centripetal",
+        Termination::Diverged => "; use --method auto",
+        _ => "",
+    }
 }

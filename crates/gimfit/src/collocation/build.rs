@@ -32,7 +32,10 @@ pub fn interpolation(parameters: &Parameters, knots: &KnotVector) -> Result<Inte
         });
     }
     match knots.boundary() {
-        Boundary::Periodic => periodic(t, knots),
+        Boundary::Periodic => {
+            let (start, end) = knots.domain();
+            periodic(t, parameters.period().unwrap_or(end - start), knots)
+        }
         Boundary::Open => open(t, knots),
     }
 }
@@ -64,7 +67,7 @@ fn open(t: &[f64], knots: &KnotVector) -> Result<Interpolation, Error> {
     Ok(Interpolation { operator: rows.into_operator(), layout })
 }
 
-fn periodic(t: &[f64], knots: &KnotVector) -> Result<Interpolation, Error> {
+fn periodic(t: &[f64], period: f64, knots: &KnotVector) -> Result<Interpolation, Error> {
     let (count, degree) = (t.len(), knots.degree());
     if knots.control_points() != count + degree {
         return Err(Error::WrongCount {
@@ -74,7 +77,7 @@ fn periodic(t: &[f64], knots: &KnotVector) -> Result<Interpolation, Error> {
             why: "points + 2 * degree + 1 for a closed curve",
         });
     }
-    let wrapped: Vec<f64> = t.iter().map(|&t| wrap(t, knots.domain())).collect();
+    let wrapped: Vec<f64> = t.iter().map(|&t| wrap(t, knots.domain(), period)).collect();
     let mut rows = collocate(&wrapped, knots);
     let shift = rows.best_shift();
     rows.shift(shift);
@@ -83,9 +86,9 @@ fn periodic(t: &[f64], knots: &KnotVector) -> Result<Interpolation, Error> {
     Ok(Interpolation { operator: rows.into_operator(), layout })
 }
 
-/// Brings a parameter of a closed curve into its domain.
-pub(crate) fn wrap(t: f64, (start, end): (f64, f64)) -> f64 {
-    let period = end - start;
+/// Brings a parameter of a closed curve into its domain. The period is that of the parameters: the
+/// length of the domain is the same but for rounding.
+pub(crate) fn wrap(t: f64, (start, end): (f64, f64), period: f64) -> f64 {
     if t < start {
         (t + period).clamp(start, end)
     } else if t > end {

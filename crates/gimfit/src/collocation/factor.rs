@@ -5,20 +5,20 @@
 //! Pinkus 1977) and keeps the band. A closed curve's matrix wraps round; its last few unknowns are
 //! set apart and met through their Schur complement.
 
-use super::band_kernel::{self, Band};
+use super::band_kernel;
 use super::kernel::Rows;
 use super::{BandedCollocation, CollocationOperator};
 use crate::{Error, memory};
 
-/// Factors `M = L U` of a band, bordered for a closed curve. Memory: `8 (below + above + 1)` bytes
-/// a row; border columns on top where the matrix wraps.
+/// Factors `M = L U` of a band, bordered for a closed curve. Memory: `8 (2 reach + 1)` bytes a
+/// row; border columns on top where the matrix wraps.
 #[derive(Debug, Clone)]
 pub struct BandFactors {
     count: usize,
-    band: Band,
-    /// Multipliers of the `below` rows before each row.
+    reach: usize,
+    /// Multipliers of the `reach` rows before each row.
     lower: Vec<f64>,
-    /// Reciprocal pivot of each row, then the `above` entries after it.
+    /// Reciprocal pivot of each row, then the `reach` entries after it over the pivot.
     upper: Vec<f64>,
     border: Option<Border>,
 }
@@ -43,17 +43,18 @@ impl BandFactors {
     pub fn new(operator: &BandedCollocation) -> Result<Self, Error> {
         let rows = operator.rows();
         let points = operator.points();
-        let (band, size) = reach(rows);
+        let (reach, size) = reach(rows);
+        let reach = band_kernel::stored_reach(reach);
         let count = points - size;
         let mut factors = Self {
             count,
-            band,
-            lower: memory::with_capacity(count * band.below),
-            upper: memory::with_capacity(count * (band.above + 1)),
+            reach,
+            lower: memory::with_capacity(count * reach),
+            upper: memory::with_capacity(count * (reach + 1)),
             border: None,
         };
         let (lower, upper) = (&mut factors.lower, &mut factors.upper);
-        let mut sound = band_kernel::factor(rows, count, band, lower, upper);
+        let mut sound = band_kernel::factor(rows, count, reach, lower, upper);
         if size > 0 {
             let mut border = Border::new(operator, size);
             factors.substitute_band(&mut border.reach, size);
@@ -79,41 +80,31 @@ impl BandFactors {
     }
 
     fn substitute_band(&self, vectors: &mut [f64], dimension: usize) {
-        band_kernel::substitute(self.band, &self.lower, &self.upper, vectors, dimension);
+        band_kernel::substitute(self.reach, &self.lower, &self.upper, vectors, dimension);
     }
 }
 
 /// How far rows reach from the diagonal, and how far those that wrap round do.
-fn reach(rows: Rows<'_>) -> (Band, usize) {
+fn reach(rows: Rows<'_>) -> (usize, usize) {
     let columns = rows.columns as i64;
-    let (mut below, mut above, mut wrapped) = (0, 0, 0);
+    let (mut reach, mut wrapped) = (0, 0);
     let lines = rows.first.iter().zip(rows.weights.chunks_exact(rows.width));
     for (j, (&first, weights)) in lines.enumerate() {
-        // The outermost weights that are not zero, looked for only where the band could grow.
-        let (mut left, mut right) = (0, weights.len() - 1);
-        let inside = |column: i64| -below <= column - j as i64 && column - (j as i64) <= above;
-        let within = |column: i64| (0..columns).contains(&column);
-        let plain = |column: i64| inside(column) && within(column);
-        if plain(i64::from(first)) && plain(i64::from(first) + right as i64) {
+        let (j, first) = (j as i64, i64::from(first));
+        let last = first + weights.len() as i64 - 1;
+        // Only a row that could widen the band, or wraps, is looked at closely.
+        if (j - first).max(last - j) <= reach && first >= 0 && last < columns {
             continue;
         }
-        while left < right && weights[left] == 0.0 {
-            left += 1;
-        }
-        while right > left && weights[right] == 0.0 {
-            right -= 1;
-        }
-        let (left, right) = (i64::from(first) + left as i64, i64::from(first) + right as i64);
-        below = below.max(j as i64 - left);
-        above = above.max(right - j as i64);
-        if left < 0 {
-            wrapped = wrapped.max(j as i64 - left);
-        }
-        if right >= columns {
-            wrapped = wrapped.max(right - j as i64);
+        for (column, _) in (first..).zip(weights).filter(|(_, weight)| **weight != 0.0) {
+            let offset = (column - j).abs();
+            reach = reach.max(offset);
+            if !(0..columns).contains(&column) {
+                wrapped = wrapped.max(offset);
+            }
         }
     }
-    (Band { below: below as usize, above: above as usize }, wrapped as usize)
+    (reach as usize, wrapped as usize)
 }
 
 impl Border {

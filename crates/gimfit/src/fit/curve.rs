@@ -195,6 +195,9 @@ fn solve(
     let Outcome { termination, iterations, mut history } = outcome;
 
     let norms = state.norms();
+    if !norms.is_finite() || state.control().iter().any(|x| !x.is_finite()) {
+        return Err(Error::LeavesDoubles);
+    }
     let reached_rounding = state.rounding_level();
     let iteration_returned = state.iteration();
     let (control, vectors) = state.into_parts();
@@ -318,7 +321,8 @@ fn finish_parameters(
         note(first + period - last);
     }
     if matches!(layout, ControlLayout::Periodic { .. }) {
-        values.iter_mut().for_each(|t| *t = wrap(*t, knots.domain()));
+        let period = period.unwrap_or_default();
+        values.iter_mut().for_each(|t| *t = wrap(*t, knots.domain(), period));
     }
     (values, longest / shortest)
 }
@@ -339,8 +343,8 @@ pub(super) fn unscaled(points: Points, scale: PowerOfTwoScale) -> Result<Points,
     let dimension = points.dimension();
     let mut coordinates = points.into_coordinates();
     scale.undo_in_place(&mut coordinates);
-    if let Some(position) = coordinates.iter().position(|x| !x.is_finite()) {
-        return Err(Error::ExtentOverflow { coordinate: position % dimension });
+    if coordinates.iter().any(|x| !x.is_finite()) {
+        return Err(Error::LeavesDoubles);
     }
     Points::new(dimension, coordinates)
 }

@@ -32,7 +32,8 @@ pub(super) fn choose<'a>(
     let mut eigenvalue = None;
     let mut smallest = || -> Result<f64, Error> {
         let bounds = smallest_eigenvalue(&BandFactors::new(operator)?);
-        eigenvalue = Some(bounds.estimate);
+        // Where the enclosure did not close, the estimate is not worth telling.
+        eigenvalue = (bounds.estimate <= 1.5 * bounds.lower).then_some(bounds.estimate);
         // The lower bound is safe; far off the estimate it would only be slow.
         Ok(bounds.lower.max(0.5 * bounds.estimate))
     };
