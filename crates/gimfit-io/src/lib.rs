@@ -3,6 +3,8 @@
 
 pub mod document;
 pub mod figure;
+pub mod grids;
 pub mod points;
+pub mod surface_figure;
 pub mod table;
 pub mod write;

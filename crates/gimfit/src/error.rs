@@ -25,6 +25,30 @@ pub enum Error {
         /// Points needed.
         needed: usize,
     },
+    /// Fewer rows or columns of a grid than `degree + 1`.
+    #[error("{count} {what} are too few for degree {degree} across them, which needs {needed}")]
+    TooFewLines {
+        /// `rows` or `columns`.
+        what: &'static str,
+        /// How many there are.
+        count: usize,
+        /// The degree asked for.
+        degree: usize,
+        /// How many are needed.
+        needed: usize,
+    },
+    /// Neighbouring rows or columns of a grid that coincide, so that they would share a parameter.
+    #[error(
+        "{what}s {first} and {second} coincide, or nearly so against the whole grid; remove one of them"
+    )]
+    RepeatedLines {
+        /// `row` or `column`.
+        what: &'static str,
+        /// Position of the first, from 0.
+        first: usize,
+        /// Position of the second.
+        second: usize,
+    },
     /// An array whose length is no multiple of the dimension, or dimension 0.
     #[error("{length} coordinates are no whole number of points of dimension {dimension}")]
     Shape {
@@ -170,6 +194,17 @@ pub enum Error {
 }
 
 impl Error {
+    /// The same error where points stand for whole rows or columns of a grid.
+    pub(crate) fn in_lines(self, what: &'static str) -> Self {
+        match self {
+            Self::RepeatedPoints { first, second, .. }
+            | Self::ParametersCollide { first, second } => {
+                Self::RepeatedLines { what, first, second }
+            }
+            other => other,
+        }
+    }
+
     /// The same error with positions of points looked up in `kept`: from points that are left to
     /// the caller's numbering.
     pub(crate) fn renumbered(self, kept: &[usize]) -> Self {

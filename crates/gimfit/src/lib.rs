@@ -54,14 +54,15 @@ pub mod fit;
 
 pub use error::Error;
 pub use fit::{
-    CurveFit, CurveOptions, IterationWeight, KeptFit, Method, fit_curve, fit_curve_observed,
+    CurveFit, CurveOptions, IterationWeight, KeptFit, Method, SurfaceFit, SurfaceOptions,
+    fit_curve, fit_curve_observed, fit_surface, fit_surface_observed,
 };
-pub use geometry::Curve;
+pub use geometry::{Curve, Surface};
 pub use iteration::{HistoryEntry, Termination};
 pub use knots::{KnotPlacement, KnotVector};
 pub use parameters::Parameterization;
-pub use points::{Duplicates, Points, PointsView};
-pub use report::CurveReport;
+pub use points::{Duplicates, GridView, PointGrid, Points, PointsView};
+pub use report::{CurveReport, SurfaceReport};
 
 /// The Rust examples of the README and of the documentation pages, run as tests.
 #[cfg(doctest)]

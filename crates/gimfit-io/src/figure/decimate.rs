@@ -1,22 +1,22 @@
 //! Dropping what a picture cannot show, always in the same way.
 
 /// A position in the picture; not a number where there is no point.
-pub(super) type Px = (f64, f64);
+pub(crate) type Px = (f64, f64);
 
 /// Most points of one layer of a panel.
 pub(super) const MOST_POINTS: usize = 4000;
 
 /// A layer after points were dropped from it.
-pub(super) struct Thinned {
+pub(crate) struct Thinned {
     /// The points kept, in their order.
-    pub(super) points: Vec<Px>,
+    pub(crate) points: Vec<Px>,
     /// Every how many-th point was kept; 1 where no more was dropped than the
     /// resolution of the picture hides.
-    pub(super) stride: usize,
+    pub(crate) stride: usize,
 }
 
 /// How often to draw a point so that at most `most` of `count` are drawn.
-pub(super) fn stride_for(count: usize, most: usize) -> usize {
+pub(crate) fn stride_for(count: usize, most: usize) -> usize {
     count.div_ceil(most.max(1)).max(1)
 }
 
@@ -30,7 +30,7 @@ pub(super) fn every_nth(points: &[Px], most: usize) -> Thinned {
 ///
 /// First go vertices that pixels cannot tell from others; only if too many
 /// are left, every so many-th of all points is kept instead.
-pub(super) fn thin_polyline(points: &[Px], most: usize) -> Thinned {
+pub(crate) fn thin_polyline(points: &[Px], most: usize) -> Thinned {
     let whole = |points| Thinned { points, stride: 1 };
     for tolerance in [0.08, 0.3] {
         let straightened = drop_straight(points, tolerance);

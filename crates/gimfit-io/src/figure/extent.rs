@@ -36,17 +36,8 @@ pub(super) fn of_coordinates(
                 .iter()
                 .map(|kept| around(Rows::new(kept.curve.points, figure.dimension), k));
             for other in others.into_iter().chain(earlier).flatten() {
-                let other = match data {
-                    Some(data) if allowance > 0.0 => {
-                        let limit = data.grown(allowance);
-                        strayed |= other.low < limit.low || other.high > limit.high;
-                        Interval {
-                            low: other.low.clamp(limit.low, limit.high),
-                            high: other.high.clamp(limit.low, limit.high),
-                        }
-                    }
-                    _ => other,
-                };
+                let (other, cut) = cut(other, data, allowance);
+                strayed |= cut;
                 shown = Some(shown.map_or(other, |old| old.union(other)));
             }
             shown
@@ -56,6 +47,22 @@ pub(super) fn of_coordinates(
         notes.add("curves or control polygon reach beyond the picture".to_owned());
     }
     made
+}
+
+/// What of `other` lies no further than `allowance` from `data`, and whether
+/// that is not all.
+pub(crate) fn cut(other: Interval, data: Option<Interval>, allowance: f64) -> (Interval, bool) {
+    match data {
+        Some(data) if allowance > 0.0 => {
+            let limit = data.grown(allowance);
+            let within = Interval {
+                low: other.low.clamp(limit.low, limit.high),
+                high: other.high.clamp(limit.low, limit.high),
+            };
+            (within, other.low < limit.low || other.high > limit.high)
+        }
+        _ => (other, false),
+    }
 }
 
 /// Values of coordinate `k` of the Bezier points, which a 2-D curve may have.
@@ -75,7 +82,7 @@ pub(super) fn of_parameters(figure: &CurveFigure<'_>) -> Option<Interval> {
 }
 
 /// `values` with room at both ends.
-pub(super) fn padded(values: Interval) -> Interval {
+pub(crate) fn padded(values: Interval) -> Interval {
     let opened = values.opened();
     opened.grown(PADDING * opened.span())
 }

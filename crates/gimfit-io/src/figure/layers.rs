@@ -227,7 +227,7 @@ fn draw_polyline(svg: &mut Svg, points: &[Px], most: usize, colour: &str, width:
 }
 
 /// A path through `points`, interrupted where there is none.
-pub(super) fn polyline(points: &[Px]) -> Path {
+pub(crate) fn polyline(points: &[Px]) -> Path {
     let mut path = Path::default();
     let mut pen_down = false;
     for &p in points {
@@ -261,7 +261,7 @@ fn path_of_pieces(pieces: &[[Px; 4]]) -> Path {
 }
 
 /// Strokes `path` with round joins.
-pub(super) fn stroke(svg: &mut Svg, path: &Path, colour: &str, width: f64) {
+pub(crate) fn stroke(svg: &mut Svg, path: &Path, colour: &str, width: f64) {
     if path.is_empty() {
         return;
     }

@@ -15,15 +15,15 @@ use super::{
 /// Width of the frames of the panels beside the main one.
 const SIDE_WIDTH: f64 = 330.0;
 /// Widths between which the main panel adapts to the curve.
-const MAIN_WIDTH: (f64, f64) = (430.0, 700.0);
+pub(crate) const MAIN_WIDTH: (f64, f64) = (430.0, 700.0);
 /// Height of the main panel beside the others.
-const MAIN_HEIGHT: f64 = 520.0;
+pub(crate) const MAIN_HEIGHT: f64 = 520.0;
 /// A plane curve this many times wider than high gets the whole width, with
 /// the other panels under it.
-const WIDE_ASPECT: f64 = 2.6;
+pub(crate) const WIDE_ASPECT: f64 = 2.6;
 /// Width of the main panel of such a curve, and its least and greatest height.
-const WHOLE_WIDTH: f64 = 1040.0;
-const WIDE_HEIGHT: (f64, f64) = (190.0, 420.0);
+pub(crate) const WHOLE_WIDTH: f64 = 1040.0;
+pub(crate) const WIDE_HEIGHT: (f64, f64) = (190.0, 420.0);
 /// Height of the panels under a main panel.
 const UNDER_HEIGHT: f64 = 210.0;
 /// Between the axis labels of a panel and the heading of the one below it.
@@ -39,10 +39,10 @@ enum Main {
 }
 
 /// Frames of the panels, and the size of the whole.
-struct Layout {
-    main: Rect,
-    error: Rect,
-    history: Rect,
+pub(crate) struct Layout {
+    pub(crate) main: Rect,
+    pub(crate) error: Rect,
+    pub(crate) history: Rect,
     width: f64,
     bottom: f64,
 }
@@ -57,13 +57,8 @@ pub(super) fn curve_figure(figure: &CurveFigure<'_>) -> String {
     };
     layers::note_earlier(figure.sequence.len(), &mut notes);
     let (main_width, main_height, under) = main_size(&main, figure.dimension);
-    let width = if under {
-        2.0 * MARGIN + AXIS_LEFT + main_width
-    } else {
-        2.0 * (MARGIN + AXIS_LEFT) + main_width + MARGIN + SIDE_WIDTH
-    };
-    let caption = text::wrap(figure.caption, style::CAPTION_SIZE, width - 2.0 * MARGIN, 3);
-    let top = MARGIN + 22.0 + 17.0 * caption.len() as f64 + 18.0;
+    let width = whole_width(main_width, under);
+    let (caption, top) = wrapped_caption(figure.caption, width);
     // Where the marks turn out smaller, the legend takes up no less room.
     let rows = |looks| legend::rows(layers::legend(figure, looks), main_width);
     let legend_rows = rows(Looks::default()).len();
@@ -77,9 +72,25 @@ pub(super) fn curve_figure(figure: &CurveFigure<'_>) -> String {
     };
     legend::draw(&mut svg, layout.main, &rows(looks));
     panel_error::draw(&mut svg, layout.error, figure, &mut notes);
-    panel_history::draw(&mut svg, layout.history, figure, &mut notes);
+    panel_history::draw(&mut svg, layout.history, figure.history, figure.extent, &mut notes);
     let body = svg.finish();
-    whole(figure, &layout, &caption, &notes, &body)
+    whole(figure.title, &layout, &caption, &notes, &body)
+}
+
+/// Width of the picture around a main panel `main_width` wide.
+pub(crate) fn whole_width(main_width: f64, under: bool) -> f64 {
+    if under {
+        2.0 * MARGIN + AXIS_LEFT + main_width
+    } else {
+        2.0 * (MARGIN + AXIS_LEFT) + main_width + MARGIN + SIDE_WIDTH
+    }
+}
+
+/// Lines of the caption, and where the heading of the picture ends.
+pub(crate) fn wrapped_caption(caption: &str, width: f64) -> (Vec<String>, f64) {
+    let caption = text::wrap(caption, style::CAPTION_SIZE, width - 2.0 * MARGIN, 3);
+    let top = MARGIN + 22.0 + 17.0 * caption.len() as f64 + 18.0;
+    (caption, top)
 }
 
 /// Width and height of the main panel, and whether the others go under it.
@@ -111,7 +122,8 @@ fn main_size(main: &Main, dimension: usize) -> (f64, f64, bool) {
     }
 }
 
-fn place(
+/// Places the panels under a heading that ends at `top`.
+pub(crate) fn place(
     main_width: f64,
     main_height: f64,
     under: bool,
@@ -146,8 +158,8 @@ fn place(
 }
 
 /// The document around `body`: its size, background, title, caption, notes.
-fn whole(
-    figure: &CurveFigure<'_>,
+pub(crate) fn whole(
+    title: &str,
     layout: &Layout,
     caption: &[String],
     notes: &Notes,
@@ -165,7 +177,7 @@ fn whole(
         .attribute("font-family", style::FONT_FAMILY)
         .attribute("role", "img")
         .open();
-    let title = text::fit(figure.title.trim(), style::TITLE_SIZE, room);
+    let title = text::fit(title.trim(), style::TITLE_SIZE, room);
     svg.tag("title").plain(&title);
     svg.tag("rect")
         .attribute("width", "100%")

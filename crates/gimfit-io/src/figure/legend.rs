@@ -6,7 +6,7 @@ use super::{style, text};
 
 /// What a legend entry shows before its name.
 #[derive(Clone, Debug)]
-pub(super) enum Sample {
+pub(crate) enum Sample {
     /// A line of a colour and a width.
     Line(String, f64),
     /// A dashed line of a colour and a width.
@@ -21,14 +21,14 @@ pub(super) enum Sample {
 
 /// One entry.
 #[derive(Clone, Debug)]
-pub(super) struct Entry {
-    pub(super) sample: Sample,
-    pub(super) name: String,
+pub(crate) struct Entry {
+    pub(crate) sample: Sample,
+    pub(crate) name: String,
 }
 
 const SAMPLE_WIDTH: f64 = 24.0;
 const GAP: f64 = 16.0;
-pub(super) const ROW_HEIGHT: f64 = 19.0;
+pub(crate) const ROW_HEIGHT: f64 = 19.0;
 
 fn entry_width(entry: &Entry) -> f64 {
     let sample = match entry.sample {
@@ -39,7 +39,7 @@ fn entry_width(entry: &Entry) -> f64 {
 }
 
 /// Splits `entries` into rows no wider than `room`.
-pub(super) fn rows(entries: Vec<Entry>, room: f64) -> Vec<Vec<Entry>> {
+pub(crate) fn rows(entries: Vec<Entry>, room: f64) -> Vec<Vec<Entry>> {
     let mut rows: Vec<Vec<Entry>> = Vec::new();
     let mut used = f64::INFINITY;
     for entry in entries {
@@ -59,7 +59,7 @@ pub(super) fn rows(entries: Vec<Entry>, room: f64) -> Vec<Vec<Entry>> {
 }
 
 /// Draws `rows` so that the last one stands just above `area`.
-pub(super) fn draw(svg: &mut Svg, area: Rect, rows: &[Vec<Entry>]) {
+pub(crate) fn draw(svg: &mut Svg, area: Rect, rows: &[Vec<Entry>]) {
     for (above, row) in rows.iter().rev().enumerate() {
         let y = area.y - 14.0 - ROW_HEIGHT * above as f64;
         draw_row(svg, area.x + 1.0, y, row);
@@ -67,7 +67,7 @@ pub(super) fn draw(svg: &mut Svg, area: Rect, rows: &[Vec<Entry>]) {
 }
 
 /// Draws one row that ends at the right end of `area`, beside its heading.
-pub(super) fn draw_right(svg: &mut Svg, area: Rect, row: &[Entry]) {
+pub(crate) fn draw_right(svg: &mut Svg, area: Rect, row: &[Entry]) {
     let wide: f64 = row.iter().map(entry_width).sum();
     let gaps = GAP * row.len().saturating_sub(1) as f64;
     draw_row(svg, area.right() - wide - gaps, area.y - 14.0, row);

@@ -1,6 +1,5 @@
 //! A faint line at the residual below which rounding rules.
 
-use super::CurveFigure;
 use super::legend::{Entry, Sample};
 use super::log_axis::LogScale;
 use super::plot::Rect;
@@ -13,13 +12,13 @@ const NAME: &str = "10⁻¹² × extent";
 const RELATIVE: f64 = 1.0e-12;
 
 /// The residual at which the line lies; not positive where there is no extent.
-pub(super) fn value(figure: &CurveFigure<'_>) -> f64 {
-    if figure.extent.is_finite() { RELATIVE * figure.extent } else { 0.0 }
+pub(super) fn value(extent: f64) -> f64 {
+    if extent.is_finite() { RELATIVE * extent } else { 0.0 }
 }
 
 /// Draws the line, if the axis holds it; tells whether it does.
-pub(super) fn draw(svg: &mut Svg, area: Rect, figure: &CurveFigure<'_>, log: &LogScale) -> bool {
-    let value = value(figure);
+pub(super) fn draw(svg: &mut Svg, area: Rect, extent: f64, log: &LogScale) -> bool {
+    let value = value(extent);
     if !log.holds(value) {
         return false;
     }
@@ -41,8 +40,8 @@ pub(super) fn entry() -> Entry {
 }
 
 /// Writes its name beside the line, on the side where a falling curve is not.
-pub(super) fn label(svg: &mut Svg, area: Rect, figure: &CurveFigure<'_>, log: &LogScale) {
-    let (y, _) = log.at(value(figure));
+pub(super) fn label(svg: &mut Svg, area: Rect, extent: f64, log: &LogScale) {
+    let (y, _) = log.at(value(extent));
     let low = y > area.y + 0.5 * area.height;
     let (x, anchor) = if low { (area.x + 6.0, "start") } else { (area.right() - 6.0, "end") };
     // Above the line, unless the frame leaves no room there.

@@ -8,7 +8,7 @@ const MOST_DECADES: i32 = 24;
 
 /// A map from positive values to positions, from decade to decade.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct LogScale {
+pub(crate) struct LogScale {
     bottom: i32,
     top: i32,
     start: f64,
@@ -18,7 +18,7 @@ pub(super) struct LogScale {
 impl LogScale {
     /// The decades that hold the positive finite ones of `values`; `None` if
     /// there are none.
-    pub(super) fn around(values: impl Iterator<Item = f64>, start: f64, end: f64) -> Option<Self> {
+    pub(crate) fn around(values: impl Iterator<Item = f64>, start: f64, end: f64) -> Option<Self> {
         let mut ends: Option<(f64, f64)> = None;
         for value in values.filter(|v| *v > 0.0 && v.is_finite()) {
             let (low, high) = ends.unwrap_or((value, value));
@@ -38,7 +38,7 @@ impl LogScale {
 
     /// The same scale, lowered so that it reaches `value`, provided that this
     /// adds no more than `most` decades.
-    pub(super) fn reaching(self, value: f64, most: i32) -> Self {
+    pub(crate) fn reaching(self, value: f64, most: i32) -> Self {
         if !(value > 0.0 && value.is_finite()) {
             return self;
         }
@@ -52,7 +52,7 @@ impl LogScale {
 
     /// Position of `value`, and whether it lies below the axis and has been
     /// put at its lower end.
-    pub(super) fn at(&self, value: f64) -> (f64, bool) {
+    pub(crate) fn at(&self, value: f64) -> (f64, bool) {
         let exponent = if value > 0.0 { value.log10() } else { -1.0e6 };
         let t = (exponent - f64::from(self.bottom)) / f64::from(self.top - self.bottom);
         let below = t < -1.0e-9;
@@ -60,19 +60,19 @@ impl LogScale {
     }
 
     /// Whether `value` lies between the ends of the axis.
-    pub(super) fn holds(&self, value: f64) -> bool {
+    pub(crate) fn holds(&self, value: f64) -> bool {
         value > 0.0
             && value.log10() >= f64::from(self.bottom)
             && value.log10() <= f64::from(self.top)
     }
 
     /// The value at the lower end, as a label.
-    pub(super) fn bottom_label(&self) -> String {
+    pub(crate) fn bottom_label(&self) -> String {
         text::power_of_ten(self.bottom)
     }
 
     /// Position and label of decades, `spacing` or more apart.
-    pub(super) fn marks(&self, spacing: f64) -> Vec<(f64, String)> {
+    pub(crate) fn marks(&self, spacing: f64) -> Vec<(f64, String)> {
         let decades = self.top - self.bottom;
         let per_decade = (self.end - self.start).abs() / f64::from(decades);
         let stride = [1, 2, 3, 4, 5, 6, 8, 10, 12]

@@ -35,28 +35,28 @@
 //! # Ok::<(), gimfit_io::figure::FigureError>(())
 //! ```
 
-mod decimate;
-mod extent;
-mod layers;
-mod layout;
-mod legend;
+pub(crate) mod decimate;
+pub(crate) mod extent;
+pub(crate) mod layers;
+pub(crate) mod layout;
+pub(crate) mod legend;
 mod level;
-mod log_axis;
-mod notes;
+pub(crate) mod log_axis;
+pub(crate) mod notes;
 mod panel_coordinates;
 mod panel_error;
-mod panel_history;
-mod panel_shape;
-mod panel_space;
-mod plot;
+pub(crate) mod panel_history;
+pub(crate) mod panel_shape;
+pub(crate) mod panel_space;
+pub(crate) mod plot;
 mod png;
-mod rows;
-mod scale;
-mod style;
-mod svg;
-mod text;
-mod ticks;
-mod view;
+pub(crate) mod rows;
+pub(crate) mod scale;
+pub(crate) mod style;
+pub(crate) mod svg;
+pub(crate) mod text;
+pub(crate) mod ticks;
+pub(crate) mod view;
 
 #[cfg(test)]
 mod tests;
@@ -148,17 +148,22 @@ impl<'a> CurveFigure<'a> {
 
     /// The given name of coordinate `k`, or one that suits the dimension.
     fn coordinate_name(&self, k: usize) -> String {
-        match (self.coordinate_names.get(k), self.dimension) {
-            (Some(name), _) if !name.trim().is_empty() => name.trim().to_owned(),
-            (_, 1) => "value".to_owned(),
-            (_, 2 | 3) => ["x", "y", "z"].get(k).copied().unwrap_or("").to_owned(),
-            _ => format!("x{}", k.saturating_add(1)),
-        }
+        coordinate_name(self.coordinate_names, self.dimension, k)
+    }
+}
+
+/// The name of coordinate `k` in `names`, or one that suits the dimension.
+pub(crate) fn coordinate_name(names: &[String], dimension: usize, k: usize) -> String {
+    match (names.get(k), dimension) {
+        (Some(name), _) if !name.trim().is_empty() => name.trim().to_owned(),
+        (_, 1) => "value".to_owned(),
+        (_, 2 | 3) => ["x", "y", "z"].get(k).copied().unwrap_or("").to_owned(),
+        _ => format!("x{}", k.saturating_add(1)),
     }
 }
 
 /// Writes `content` in the middle of an `area` that shows nothing else.
-fn message(svg: &mut Svg, area: Rect, content: &str) {
+pub(crate) fn message(svg: &mut Svg, area: Rect, content: &str) {
     svg.tag("rect")
         .number("x", area.x)
         .number("y", area.y)

@@ -5,38 +5,38 @@ use super::text;
 
 /// Remarks in the order in which they arose, each once.
 #[derive(Default)]
-pub(super) struct Notes {
+pub(crate) struct Notes {
     remarks: Vec<String>,
 }
 
 impl Notes {
-    pub(super) fn add(&mut self, remark: String) {
+    pub(crate) fn add(&mut self, remark: String) {
         if !self.remarks.contains(&remark) {
             self.remarks.push(remark);
         }
     }
 
     /// Says that only every `stride`-th of what `name` names is drawn.
-    pub(super) fn stride(&mut self, name: &str, stride: usize) {
+    pub(crate) fn stride(&mut self, name: &str, stride: usize) {
         if stride > 1 {
             self.add(format!("every {} {name} drawn", text::ordinal(stride)));
         }
     }
 
     /// Explains offsets, if one of `axes` has one.
-    pub(super) fn offset(&mut self, axes: &[&Axis]) {
+    pub(crate) fn offset(&mut self, axes: &[&Axis]) {
         if axes.iter().any(|axis| axis.has_offset) {
             self.offset_of_labels();
         }
     }
 
     /// Explains what stands in brackets behind the name of an axis.
-    pub(super) fn offset_of_labels(&mut self) {
+    pub(crate) fn offset_of_labels(&mut self) {
         self.add("in brackets behind the name of an axis: what its labels are multiplied by, and what is added then".to_owned());
     }
 
     /// All remarks as one sentence; empty without any.
-    pub(super) fn sentence(&self) -> String {
+    pub(crate) fn sentence(&self) -> String {
         let mut sentence = self.remarks.join("; ");
         if let Some(first) = sentence.chars().next() {
             let upper: String = first.to_uppercase().collect();

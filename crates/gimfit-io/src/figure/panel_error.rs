@@ -54,14 +54,14 @@ pub(super) fn draw(svg: &mut Svg, area: Rect, figure: &CurveFigure<'_>, notes: &
         .flatten();
     match log {
         Some(log) => {
-            let log = log.reaching(level::value(figure), 2);
+            let log = log.reaching(level::value(figure.extent), 2);
             let below = residuals.iter().filter(|v| log.at(**v).1).count();
             if below > 0 {
                 notes.add(below_sentence(below, residuals.len(), &log, single));
             }
             let axis = Axis::logarithmic(&log, "residual");
             plot::draw_axes(svg, area, &across, &axis);
-            if level::draw(svg, area, figure, &log) {
+            if level::draw(svg, area, figure.extent, &log) {
                 legend::draw_right(svg, area, &[level::entry()]);
             }
             bars.draw(svg, area, &made, |v| log.at(v));

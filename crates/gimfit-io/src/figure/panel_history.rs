@@ -9,17 +9,22 @@ use super::plot::{self, Axis, Rect};
 use super::scale::{Interval, Scale};
 use super::svg::{Path, Svg};
 use super::ticks::Direction;
-use super::{CurveFigure, level, message, style};
+use super::{level, message, style};
 
 /// Iterations are marked one by one up to this number.
 const MOST_MARKED: usize = 50;
 
 const MOST_POINTS: usize = 1500;
 
-/// Draws the panel into `area`.
-pub(super) fn draw(svg: &mut Svg, area: Rect, figure: &CurveFigure<'_>, notes: &mut Notes) {
+/// Draws the panel of `history`, as in a [`super::CurveFigure`], into `area`.
+pub(crate) fn draw(
+    svg: &mut Svg,
+    area: Rect,
+    history: &[(usize, f64, f64)],
+    extent: f64,
+    notes: &mut Notes,
+) {
     plot::heading(svg, area, "Convergence");
-    let history = figure.history;
     let Some(iterations) = Interval::around(history.iter().map(|h| h.0 as f64)) else {
         message(svg, area, "no history");
         return;
@@ -36,11 +41,11 @@ pub(super) fn draw(svg: &mut Svg, area: Rect, figure: &CurveFigure<'_>, notes: &
         message(svg, area, "all residuals are 0");
         return;
     };
-    let log = log.reaching(level::value(figure), 2);
+    let log = log.reaching(level::value(extent), 2);
     let axis = Axis::logarithmic(&log, "residual");
     plot::draw_axes(svg, area, &across, &axis);
-    if level::draw(svg, area, figure, &log) {
-        level::label(svg, area, figure, &log);
+    if level::draw(svg, area, extent, &log) {
+        level::label(svg, area, extent, &log);
     }
     let rms = Series::new(history.iter().map(|h| (h.0, h.2)), &sx, &log);
     let largest = Series::new(history.iter().map(|h| (h.0, h.1)), &sx, &log);

@@ -12,7 +12,7 @@ use super::ticks::Direction;
 use super::{CurveFigure, message};
 
 /// Room between the outermost points and the frame.
-pub(super) const INSET: f64 = 26.0;
+pub(crate) const INSET: f64 = 26.0;
 
 /// The intervals that the panel shows, or `None` without any point.
 pub(super) fn intervals(figure: &CurveFigure<'_>, notes: &mut Notes) -> Option<[Interval; 2]> {
@@ -23,7 +23,7 @@ pub(super) fn intervals(figure: &CurveFigure<'_>, notes: &mut Notes) -> Option<[
 }
 
 /// Width over height of the curve, for the choice of a layout.
-pub(super) fn aspect(shown: &[Interval; 2]) -> f64 {
+pub(crate) fn aspect(shown: &[Interval; 2]) -> f64 {
     let (x, y) = (shown[0].span(), shown[1].span());
     if x.max(y) > 0.0 { x / y } else { 1.0 }
 }

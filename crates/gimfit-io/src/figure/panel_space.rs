@@ -19,10 +19,10 @@ const AROUND: f64 = 50.0;
 const ABOVE: f64 = 8.0;
 
 /// A side of the box is never thinner than this part of the longest side.
-const THINNEST: f64 = 0.12;
+pub(crate) const THINNEST: f64 = 0.12;
 
 /// The box of a curve and how it is seen.
-pub(super) struct Scene {
+pub(crate) struct Scene {
     view: View,
     sides: [Interval; 3],
     /// What the box covers across and upward.
@@ -42,7 +42,11 @@ impl Scene {
             let missing = (THINNEST * longest - values.span()).max(0.0);
             extent::padded(values.grown(0.5 * missing))
         });
-        let view = View::of(figure.data(), &sides);
+        Self::seen(View::of(figure.data(), &sides), sides)
+    }
+
+    /// The box with these `sides`, seen as in `view`; `None` if it has none.
+    pub(crate) fn seen(view: View, sides: [Interval; 3]) -> Option<Self> {
         let corners = (0..8).map(|number| view.project(&corner(&sides, number)));
         let (us, vs): (Vec<f64>, Vec<f64>) = corners.unzip();
         let cover = [Interval::around(us.into_iter())?, Interval::around(vs.into_iter())?];
@@ -50,9 +54,15 @@ impl Scene {
     }
 
     /// Width of a panel `height` high that the box fills.
-    pub(super) fn width_for(&self, height: f64) -> f64 {
+    pub(crate) fn width_for(&self, height: f64) -> f64 {
         let [across, upward] = self.cover.map(|interval| interval.opened().span());
         (height - AROUND - ABOVE) * across / upward + 2.0 * AROUND
+    }
+
+    /// Height of a panel `width` wide that the box fills.
+    pub(crate) fn height_for(&self, width: f64) -> f64 {
+        let [across, upward] = self.cover.map(|interval| interval.opened().span());
+        (width - 2.0 * AROUND) * upward / across + AROUND + ABOVE
     }
 }
 
@@ -69,7 +79,8 @@ pub(super) fn draw(
         return Looks::default();
     };
     let stage = Stage::new(area, scene);
-    stage.draw_box(svg, figure, notes);
+    let names = [0, 1, 2].map(|k| figure.coordinate_name(k));
+    stage.draw_box(svg, &names, notes);
     let places = |rows: Rows<'_>| rows.iter().map(|p| stage.place(p)).collect::<Vec<_>>();
     let layers = Layers {
         data: places(figure.data()),
@@ -86,15 +97,15 @@ pub(super) fn draw(
 }
 
 /// A view fitted into the panel.
-struct Stage {
-    view: View,
+pub(crate) struct Stage {
+    pub(crate) view: View,
     sides: [Interval; 3],
     across: Scale,
     upward: Scale,
 }
 
 impl Stage {
-    fn new(area: Rect, scene: Scene) -> Self {
+    pub(crate) fn new(area: Rect, scene: Scene) -> Self {
         let (across, upward) = equal_scales(
             scene.cover[0],
             scene.cover[1],
@@ -105,7 +116,7 @@ impl Stage {
         Self { view: scene.view, sides: scene.sides, across, upward }
     }
 
-    fn place(&self, point: &[f64]) -> Px {
+    pub(crate) fn place(&self, point: &[f64]) -> Px {
         let (u, v) = self.view.project(point);
         (self.across.at(u), self.upward.at(v))
     }
@@ -115,9 +126,10 @@ impl Stage {
         if self.view.sees_high_side(k) == near { self.sides[k].high } else { self.sides[k].low }
     }
 
-    fn draw_box(&self, svg: &mut Svg, figure: &CurveFigure<'_>, notes: &mut Notes) {
+    /// Draws axes named `names` and the edges of the far sides.
+    pub(crate) fn draw_box(&self, svg: &mut Svg, names: &[String; 3], notes: &mut Notes) {
         for k in 0..3 {
-            if self.draw_axis(svg, k, &figure.coordinate_name(k)) {
+            if self.draw_axis(svg, k, &names[k]) {
                 notes.offset_of_labels();
             }
         }

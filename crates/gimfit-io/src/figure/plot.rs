@@ -5,47 +5,47 @@ use super::{style, text};
 
 /// A rectangle of the picture.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Rect {
-    pub(super) x: f64,
-    pub(super) y: f64,
-    pub(super) width: f64,
-    pub(super) height: f64,
+pub(crate) struct Rect {
+    pub(crate) x: f64,
+    pub(crate) y: f64,
+    pub(crate) width: f64,
+    pub(crate) height: f64,
 }
 
 impl Rect {
-    pub(super) fn right(&self) -> f64 {
+    pub(crate) fn right(&self) -> f64 {
         self.x + self.width
     }
 
-    pub(super) fn bottom(&self) -> f64 {
+    pub(crate) fn bottom(&self) -> f64 {
         self.y + self.height
     }
 
     /// Left and right end.
-    pub(super) fn across(&self) -> (f64, f64) {
+    pub(crate) fn across(&self) -> (f64, f64) {
         (self.x, self.right())
     }
 
     /// Lower and upper end, in the sense of growing values.
-    pub(super) fn upward(&self) -> (f64, f64) {
+    pub(crate) fn upward(&self) -> (f64, f64) {
         (self.bottom(), self.y)
     }
 }
 
 /// One axis as it is drawn: positions in the picture, labels, name.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Axis {
+pub(crate) struct Axis {
     /// Position and label; an empty label draws the grid line alone.
-    pub(super) marks: Vec<(f64, String)>,
-    pub(super) name: String,
+    pub(crate) marks: Vec<(f64, String)>,
+    pub(crate) name: String,
     /// Whether the labels need something added to be the values.
-    pub(super) has_offset: bool,
+    pub(crate) has_offset: bool,
 }
 
 impl Axis {
     /// An axis with the ticks of `scale`, named `name` and, in brackets, what
     /// all labels have in common.
-    pub(super) fn linear(
+    pub(crate) fn linear(
         scale: &super::scale::Scale,
         direction: super::ticks::Direction,
         whole: bool,
@@ -65,13 +65,13 @@ impl Axis {
 
 impl Axis {
     /// An axis with the decades of `log`.
-    pub(super) fn logarithmic(log: &super::log_axis::LogScale, name: &str) -> Self {
+    pub(crate) fn logarithmic(log: &super::log_axis::LogScale, name: &str) -> Self {
         Self { marks: log.marks(17.0), name: name.to_owned(), has_offset: false }
     }
 }
 
 /// Draws grid, frame, labels and names; the content comes on top of it.
-pub(super) fn draw_axes(svg: &mut Svg, area: Rect, x: &Axis, y: &Axis) {
+pub(crate) fn draw_axes(svg: &mut Svg, area: Rect, x: &Axis, y: &Axis) {
     for (at, _) in &x.marks {
         svg.line((*at, area.y), (*at, area.bottom()), style::GRID, 1.0);
     }
@@ -119,7 +119,7 @@ fn upright_name(svg: &mut Svg, area: Rect, name: &str) {
 }
 
 /// Heading at the left above a panel.
-pub(super) fn heading(svg: &mut Svg, area: Rect, content: &str) {
+pub(crate) fn heading(svg: &mut Svg, area: Rect, content: &str) {
     let place = (area.x, area.y - 10.0);
     let content = text::fit(content, style::HEADING_SIZE, area.width);
     svg.label(place, style::HEADING_SIZE, style::INK, "start", &content);
@@ -127,7 +127,7 @@ pub(super) fn heading(svg: &mut Svg, area: Rect, content: &str) {
 
 /// A group whose content is cut at the edges of `area`, grown by `margin`;
 /// `id` must be the only one of its name in the figure. Close with `g`.
-pub(super) fn open_clipped(svg: &mut Svg, area: Rect, margin: f64, id: &str) {
+pub(crate) fn open_clipped(svg: &mut Svg, area: Rect, margin: f64, id: &str) {
     svg.tag("clipPath").attribute("id", id).open();
     svg.tag("rect")
         .number("x", area.x - margin)

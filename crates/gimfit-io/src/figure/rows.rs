@@ -3,23 +3,23 @@
 /// Points of one dimension in row-major order; a point cut short at the end
 /// is left out.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Rows<'a> {
+pub(crate) struct Rows<'a> {
     flat: &'a [f64],
     dimension: usize,
 }
 
 impl<'a> Rows<'a> {
-    pub(super) fn new(flat: &'a [f64], dimension: usize) -> Self {
+    pub(crate) fn new(flat: &'a [f64], dimension: usize) -> Self {
         // Points without coordinates are no points.
         let flat = if dimension == 0 { &[] } else { flat };
         Self { flat, dimension: dimension.max(1) }
     }
 
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.flat.len() / self.dimension
     }
 
-    pub(super) fn iter(&self) -> impl Iterator<Item = &'a [f64]> + use<'a> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &'a [f64]> + use<'a> {
         self.flat.chunks_exact(self.dimension)
     }
 }

@@ -6,20 +6,20 @@ const LARGEST: f64 = 1.0e300;
 
 /// Brings `value` into the range that scales can handle; `None` if it is no
 /// number.
-pub(super) fn drawable(value: f64) -> Option<f64> {
+pub(crate) fn drawable(value: f64) -> Option<f64> {
     (!value.is_nan()).then(|| value.clamp(-LARGEST, LARGEST))
 }
 
 /// A closed interval of values, with finite ends and more than one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Interval {
-    pub(super) low: f64,
-    pub(super) high: f64,
+pub(crate) struct Interval {
+    pub(crate) low: f64,
+    pub(crate) high: f64,
 }
 
 impl Interval {
     /// The smallest interval that holds all `values`; `None` without any.
-    pub(super) fn around(values: impl Iterator<Item = f64>) -> Option<Self> {
+    pub(crate) fn around(values: impl Iterator<Item = f64>) -> Option<Self> {
         let mut found: Option<Self> = None;
         for value in values.filter_map(drawable) {
             let (low, high) = match found {
@@ -31,27 +31,27 @@ impl Interval {
         found
     }
 
-    pub(super) fn span(&self) -> f64 {
+    pub(crate) fn span(&self) -> f64 {
         self.high - self.low
     }
 
-    pub(super) fn centre(&self) -> f64 {
+    pub(crate) fn centre(&self) -> f64 {
         0.5 * self.low + 0.5 * self.high
     }
 
     /// The smallest interval that holds both.
-    pub(super) fn union(self, other: Self) -> Self {
+    pub(crate) fn union(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
     /// The interval made longer by `amount` at both ends.
-    pub(super) fn grown(self, amount: f64) -> Self {
+    pub(crate) fn grown(self, amount: f64) -> Self {
         Self { low: (self.low - amount).max(-LARGEST), high: (self.high + amount).min(LARGEST) }
     }
 
     /// The interval itself, or one about it that is long enough to draw if
     /// rounding is all that separates its ends.
-    pub(super) fn opened(self) -> Self {
+    pub(crate) fn opened(self) -> Self {
         let size = self.low.abs().max(self.high.abs());
         if self.span() > shortest_span(size) {
             return self;
@@ -64,13 +64,13 @@ impl Interval {
 
 /// The shortest span at which values of size `size` can be told apart well
 /// enough to be given an axis.
-pub(super) fn shortest_span(size: f64) -> f64 {
+pub(crate) fn shortest_span(size: f64) -> f64 {
     (64.0 * f64::EPSILON * size).max(1.0e-300)
 }
 
 /// A linear map from values to positions along one direction of the picture.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Scale {
+pub(crate) struct Scale {
     values: Interval,
     start: f64,
     end: f64,
@@ -78,21 +78,21 @@ pub(super) struct Scale {
 
 impl Scale {
     /// The map that takes the ends of `values` to `start` and `end`.
-    pub(super) fn new(values: Interval, start: f64, end: f64) -> Self {
+    pub(crate) fn new(values: Interval, start: f64, end: f64) -> Self {
         Self { values: values.opened(), start, end }
     }
 
-    pub(super) fn values(&self) -> Interval {
+    pub(crate) fn values(&self) -> Interval {
         self.values
     }
 
     /// Length in the picture.
-    pub(super) fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         (self.end - self.start).abs()
     }
 
     /// Position of `value`; no number where it is none.
-    pub(super) fn at(&self, value: f64) -> f64 {
+    pub(crate) fn at(&self, value: f64) -> f64 {
         let Some(value) = drawable(value) else {
             return f64::NAN;
         };
@@ -105,7 +105,7 @@ impl Scale {
 /// Two scales with the same number of units to a length of the picture: both
 /// intervals are made longer about their centres to fill the rectangle, and
 /// at least `margin` of it is left on each side.
-pub(super) fn equal_scales(
+pub(crate) fn equal_scales(
     x: Interval,
     y: Interval,
     across: (f64, f64),

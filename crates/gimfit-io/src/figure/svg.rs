@@ -4,27 +4,27 @@ use super::text;
 
 /// Text of an SVG document as it grows.
 #[derive(Default)]
-pub(super) struct Svg {
+pub(crate) struct Svg {
     body: String,
 }
 
 impl Svg {
     /// Begins the tag `name`; close it with one of the methods of [`Tag`].
-    pub(super) fn tag(&mut self, name: &'static str) -> Tag<'_> {
+    pub(crate) fn tag(&mut self, name: &'static str) -> Tag<'_> {
         self.body.push('<');
         self.body.push_str(name);
         Tag { svg: self, name }
     }
 
     /// Ends an element that was left open by [`Tag::open`].
-    pub(super) fn close(&mut self, name: &str) {
+    pub(crate) fn close(&mut self, name: &str) {
         self.body.push_str("</");
         self.body.push_str(name);
         self.body.push_str(">\n");
     }
 
     /// A straight line.
-    pub(super) fn line(&mut self, from: (f64, f64), to: (f64, f64), colour: &str, width: f64) {
+    pub(crate) fn line(&mut self, from: (f64, f64), to: (f64, f64), colour: &str, width: f64) {
         self.tag("line")
             .number("x1", from.0)
             .number("y1", from.1)
@@ -36,7 +36,7 @@ impl Svg {
     }
 
     /// One line of text; `anchor` is `start`, `middle` or `end`.
-    pub(super) fn label(
+    pub(crate) fn label(
         &mut self,
         at: (f64, f64),
         size: f64,
@@ -54,19 +54,19 @@ impl Svg {
     }
 
     /// The text written so far.
-    pub(super) fn finish(self) -> String {
+    pub(crate) fn finish(self) -> String {
         self.body
     }
 }
 
 /// A tag whose attributes are being written.
-pub(super) struct Tag<'a> {
+pub(crate) struct Tag<'a> {
     svg: &'a mut Svg,
     name: &'static str,
 }
 
 impl Tag<'_> {
-    pub(super) fn attribute(self, name: &str, value: &str) -> Self {
+    pub(crate) fn attribute(self, name: &str, value: &str) -> Self {
         let body = &mut self.svg.body;
         body.push(' ');
         body.push_str(name);
@@ -76,7 +76,7 @@ impl Tag<'_> {
         self
     }
 
-    pub(super) fn number(self, name: &str, value: f64) -> Self {
+    pub(crate) fn number(self, name: &str, value: f64) -> Self {
         let body = &mut self.svg.body;
         body.push(' ');
         body.push_str(name);
@@ -87,17 +87,17 @@ impl Tag<'_> {
     }
 
     /// Ends the tag as an element without content.
-    pub(super) fn end(self) {
+    pub(crate) fn end(self) {
         self.svg.body.push_str("/>\n");
     }
 
     /// Ends the tag; the content follows, then [`Svg::close`].
-    pub(super) fn open(self) {
+    pub(crate) fn open(self) {
         self.svg.body.push_str(">\n");
     }
 
     /// Ends the tag with plain text as its content.
-    pub(super) fn plain(self, content: &str) {
+    pub(crate) fn plain(self, content: &str) {
         let body = &mut self.svg.body;
         body.push('>');
         escape_into(body, content);
@@ -134,7 +134,7 @@ impl Tag<'_> {
 
 /// The `d` attribute of a path.
 #[derive(Default)]
-pub(super) struct Path {
+pub(crate) struct Path {
     data: String,
 }
 
@@ -149,26 +149,26 @@ impl Path {
         }
     }
 
-    pub(super) fn move_to(&mut self, p: (f64, f64)) {
+    pub(crate) fn move_to(&mut self, p: (f64, f64)) {
         self.command('M', &[p.0, p.1]);
     }
 
-    pub(super) fn line_to(&mut self, p: (f64, f64)) {
+    pub(crate) fn line_to(&mut self, p: (f64, f64)) {
         self.command('L', &[p.0, p.1]);
     }
 
-    pub(super) fn cubic_to(&mut self, a: (f64, f64), b: (f64, f64), p: (f64, f64)) {
+    pub(crate) fn cubic_to(&mut self, a: (f64, f64), b: (f64, f64), p: (f64, f64)) {
         self.command('C', &[a.0, a.1, b.0, b.1, p.0, p.1]);
     }
 
     /// A dot: a line too short to see, which round caps make a disc.
-    pub(super) fn dot(&mut self, p: (f64, f64)) {
+    pub(crate) fn dot(&mut self, p: (f64, f64)) {
         self.move_to(p);
         self.data.push_str("h.01");
     }
 
     /// A square with the centre `p`.
-    pub(super) fn square(&mut self, p: (f64, f64), side: f64) {
+    pub(crate) fn square(&mut self, p: (f64, f64), side: f64) {
         self.move_to((p.0 - 0.5 * side, p.1 - 0.5 * side));
         self.command('h', &[side]);
         self.command('v', &[side]);
@@ -176,17 +176,37 @@ impl Path {
         self.data.push('z');
     }
 
+    /// A closed polygon; steps from corner to corner take fewer bytes than
+    /// their places.
+    pub(crate) fn polygon(&mut self, corners: &[(f64, f64)]) {
+        let mut at: Option<(f64, f64)> = None;
+        for p in corners {
+            match at {
+                None => self.move_to(*p),
+                Some(at) => self.command('l', &[p.0 - at.0, p.1 - at.1]),
+            }
+            at = Some(*p);
+        }
+        self.data.push('z');
+    }
+
+    /// A stroke from `p` to the right.
+    pub(crate) fn level(&mut self, p: (f64, f64), length: f64) {
+        self.move_to(p);
+        self.command('h', &[length]);
+    }
+
     /// An upright stroke at `x`.
-    pub(super) fn upright(&mut self, x: f64, from: f64, to: f64) {
+    pub(crate) fn upright(&mut self, x: f64, from: f64, to: f64) {
         self.move_to((x, from));
         self.command('V', &[to]);
     }
 
-    pub(super) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.data.is_empty()
     }
 
-    pub(super) fn data(&self) -> &str {
+    pub(crate) fn data(&self) -> &str {
         &self.data
     }
 }

@@ -12,11 +12,11 @@ const ASCII_ADVANCES: [u16; 95] = [
 ];
 
 /// Size of raised digits relative to the text they stand in.
-pub(super) const RAISED_SCALE: f64 = 0.7;
+pub(crate) const RAISED_SCALE: f64 = 0.7;
 
 /// Width of `text` set in `size`; never too small by much, since characters
 /// that the table lacks count as wide.
-pub(super) fn width(text: &str, size: f64) -> f64 {
+pub(crate) fn width(text: &str, size: f64) -> f64 {
     text.chars().map(advance).sum::<f64>() * size
 }
 
@@ -55,7 +55,7 @@ fn plain_of_superscript(c: char) -> Option<char> {
 
 /// Splits `text` into runs that are wholly superscript (given as the plain
 /// characters, marked `true`) or wholly not.
-pub(super) fn superscript_runs(text: &str) -> Vec<(String, bool)> {
+pub(crate) fn superscript_runs(text: &str) -> Vec<(String, bool)> {
     let mut runs: Vec<(String, bool)> = Vec::new();
     for c in text.chars() {
         let plain = plain_of_superscript(c);
@@ -70,7 +70,7 @@ pub(super) fn superscript_runs(text: &str) -> Vec<(String, bool)> {
 }
 
 /// `10` with `exponent` in superscript.
-pub(super) fn power_of_ten(exponent: i32) -> String {
+pub(crate) fn power_of_ten(exponent: i32) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let mut out = String::from("10");
     if exponent < 0 {
@@ -83,7 +83,7 @@ pub(super) fn power_of_ten(exponent: i32) -> String {
 }
 
 /// `count` with a thin gap between groups of three digits.
-pub(super) fn grouped(count: usize) -> String {
+pub(crate) fn grouped(count: usize) -> String {
     let digits = count.to_string();
     if digits.len() < 5 {
         return digits;
@@ -99,7 +99,7 @@ pub(super) fn grouped(count: usize) -> String {
 }
 
 /// `25th`, `31st`, `2nd`, `13th`.
-pub(super) fn ordinal(number: usize) -> String {
+pub(crate) fn ordinal(number: usize) -> String {
     let ending = match (number % 10, number % 100) {
         (_, 11..=13) => "th",
         (1, _) => "st",
@@ -111,7 +111,7 @@ pub(super) fn ordinal(number: usize) -> String {
 }
 
 /// `text` cut with an ellipsis if it is wider than `room`.
-pub(super) fn fit(text: &str, size: f64, room: f64) -> String {
+pub(crate) fn fit(text: &str, size: f64, room: f64) -> String {
     let mut used = 0.0;
     let mut kept = String::new();
     for c in text.chars() {
@@ -132,7 +132,7 @@ pub(super) fn fit(text: &str, size: f64, room: f64) -> String {
 
 /// Breaks `text` at spaces into at most `most` lines no wider than `room`;
 /// what does not fit is cut with an ellipsis.
-pub(super) fn wrap(text: &str, size: f64, room: f64, most: usize) -> Vec<String> {
+pub(crate) fn wrap(text: &str, size: f64, room: f64, most: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     let mut line = String::new();
     for word in text.split_whitespace() {

@@ -14,14 +14,14 @@ const LONGEST_LABEL: usize = 6;
 
 /// Positions with labels, and what all labels have in common.
 #[derive(Clone, Debug)]
-pub(super) struct Ticks {
+pub(crate) struct Ticks {
     /// Position and label, in rising order.
-    pub(super) marks: Vec<(f64, String)>,
+    pub(crate) marks: Vec<(f64, String)>,
     /// Common factor and offset as text, such as `×10⁻³ + 1 000 000 000`;
     /// empty where the labels are the values themselves.
-    pub(super) common: String,
+    pub(crate) common: String,
     /// Whether there is an offset.
-    pub(super) has_offset: bool,
+    pub(crate) has_offset: bool,
 }
 
 /// A step of 1, 2 or 5 times a power of ten.
@@ -61,7 +61,7 @@ impl Step {
 
 /// Which direction labels lie side by side in.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Direction {
+pub(crate) enum Direction {
     /// Beside one another, so their widths count.
     Across,
     /// On top of one another, so their heights count.
@@ -71,7 +71,7 @@ pub(super) enum Direction {
 /// Ticks for `values` on an axis `length` long, as many as fit with room.
 ///
 /// With `whole`, only whole numbers are labelled.
-pub(super) fn linear_ticks(
+pub(crate) fn linear_ticks(
     values: Interval,
     length: f64,
     direction: Direction,
@@ -202,7 +202,7 @@ fn grouped(number: &str) -> String {
 }
 
 /// The power of ten of the first digit of `value`.
-pub(super) fn order(value: f64) -> i32 {
+pub(crate) fn order(value: f64) -> i32 {
     if value == 0.0 || !value.is_finite() {
         return 0;
     }

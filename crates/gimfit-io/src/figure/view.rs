@@ -16,10 +16,11 @@ const MOST_POINTS: usize = 20_000;
 
 /// An orthographic view with the third axis upward.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct View {
-    /// Centre of the space shown, and half its longest side.
+pub(crate) struct View {
+    /// Centre of the space shown, and the length drawn as one unit along each
+    /// axis, such as half the longest side.
     centre: [f64; 3],
-    half: f64,
+    unit: [f64; 3],
     right: [f64; 3],
     up: [f64; 3],
     /// Toward the viewer.
@@ -28,7 +29,7 @@ pub(super) struct View {
 
 impl View {
     /// The view among a few that spreads `points` most, for the space `shown`.
-    pub(super) fn of(points: Rows<'_>, shown: &[Interval; 3]) -> Self {
+    pub(crate) fn of(points: Rows<'_>, shown: &[Interval; 3]) -> Self {
         let mut best = Self::from_azimuth(AZIMUTHS[0], shown);
         let mut most = best.spread(points);
         for azimuth in AZIMUTHS.into_iter().skip(1) {
@@ -43,12 +44,24 @@ impl View {
     }
 
     fn from_azimuth(degrees: f64, shown: &[Interval; 3]) -> Self {
-        let (sin_a, cos_a) = degrees.to_radians().sin_cos();
-        let (sin_e, cos_e) = ELEVATION.to_radians().sin_cos();
         let longest = shown.iter().map(Interval::span).fold(0.0, f64::max);
+        let unit = if longest > 0.0 { 0.5 * longest } else { 1.0 };
+        Self::from_angles(degrees, ELEVATION, shown.map(|values| values.centre()), [unit; 3])
+    }
+
+    /// The view from the azimuth and the elevation in degrees at `centre`,
+    /// with the lengths `unit` along the axes drawn as one unit each.
+    pub(crate) fn from_angles(
+        azimuth: f64,
+        elevation: f64,
+        centre: [f64; 3],
+        unit: [f64; 3],
+    ) -> Self {
+        let (sin_a, cos_a) = azimuth.to_radians().sin_cos();
+        let (sin_e, cos_e) = elevation.to_radians().sin_cos();
         Self {
-            centre: shown.map(|values| values.centre()),
-            half: if longest > 0.0 { 0.5 * longest } else { 1.0 },
+            centre,
+            unit,
             right: [-sin_a, cos_a, 0.0],
             up: [-sin_e * cos_a, -sin_e * sin_a, cos_e],
             toward: [cos_e * cos_a, cos_e * sin_a, sin_e],
@@ -56,17 +69,28 @@ impl View {
     }
 
     /// Place of `point` across and upward, about within -2 and 2.
-    pub(super) fn project(&self, point: &[f64]) -> (f64, f64) {
+    pub(crate) fn project(&self, point: &[f64]) -> (f64, f64) {
         let mut unit = [0.0; 3];
         for k in 0..3 {
             let value = point.get(k).copied().and_then(drawable);
-            unit[k] = value.map_or(f64::NAN, |v| (v - self.centre[k]) / self.half);
+            unit[k] = value.map_or(f64::NAN, |v| (v - self.centre[k]) / self.unit[k]);
         }
         (dot(&self.right, &unit), dot(&self.up, &unit))
     }
 
+    /// `point` as its place across, upward and toward the viewer.
+    pub(crate) fn turned(&self, point: &[f64; 3]) -> [f64; 3] {
+        let (right, up) = self.project(point);
+        let mut toward = 0.0;
+        for k in 0..3 {
+            let value = drawable(point[k]).unwrap_or(f64::NAN);
+            toward += self.toward[k] * ((value - self.centre[k]) / self.unit[k]);
+        }
+        [right, up, toward]
+    }
+
     /// Whether the viewer is on the side of growing values of coordinate `k`.
-    pub(super) fn sees_high_side(&self, k: usize) -> bool {
+    pub(crate) fn sees_high_side(&self, k: usize) -> bool {
         self.toward[k] > 0.0
     }
 

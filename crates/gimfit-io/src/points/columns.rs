@@ -5,25 +5,25 @@ use super::options::{ColumnChoice, ReadOptions};
 
 /// The most columns of one file. A curve in so many dimensions is a mistake
 /// about the layout, and their names would outgrow the file.
-pub(super) const MOST_COLUMNS: usize = 10_000;
+pub(crate) const MOST_COLUMNS: usize = 10_000;
 
 /// The columns a file has, and those taken when nobody chooses.
-pub(super) struct Offer<'a> {
-    pub(super) names: &'a [String],
+pub(crate) struct Offer<'a> {
+    pub(crate) names: &'a [String],
     /// Whether the file gives the names itself.
-    pub(super) named: bool,
+    pub(crate) named: bool,
     /// The columns taken without a choice.
-    pub(super) usual: Vec<usize>,
+    pub(crate) usual: Vec<usize>,
     /// Why they are taken, where they are not all. If empty, the caller says
     /// itself what was left out.
-    pub(super) why: &'a str,
+    pub(crate) why: &'a str,
 }
 
 /// The columns to read, by index.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Selection {
-    pub(super) coordinates: Vec<usize>,
-    pub(super) abscissa: Option<usize>,
+pub(crate) struct Selection {
+    pub(crate) coordinates: Vec<usize>,
+    pub(crate) abscissa: Option<usize>,
 }
 
 impl Selection {
@@ -34,7 +34,7 @@ impl Selection {
 
     /// The numbers of the selected columns, row by row, and of the abscissa;
     /// `value` gives the one in a row and a column.
-    pub(super) fn gather<E>(
+    pub(crate) fn gather<E>(
         &self,
         rows: usize,
         mut value: impl FnMut(usize, usize) -> Result<f64, E>,
@@ -53,7 +53,7 @@ impl Selection {
     }
 
     /// The names of the coordinate columns.
-    pub(super) fn coordinate_names(&self, names: &[String]) -> Vec<String> {
+    pub(crate) fn coordinate_names(&self, names: &[String]) -> Vec<String> {
         self.coordinates.iter().map(|at| names[*at].clone()).collect()
     }
 
@@ -64,7 +64,7 @@ impl Selection {
 }
 
 /// The columns to read of `offer`, as `options` ask.
-pub(super) fn select(
+pub(crate) fn select(
     offer: Offer<'_>,
     options: &ReadOptions,
     source: &str,

@@ -28,7 +28,7 @@ impl Seen {
 
 /// Returns if commas are decimal marks in the columns marked in `wanted`, and
 /// fails if they can be something else.
-pub(super) fn require_comma(
+pub(crate) fn require_comma(
     rows: &Rows<'_>,
     layout: &Layout,
     wanted: &[bool],

@@ -12,7 +12,7 @@ use super::error::{Problem, ReadError, list};
 
 /// The text in `bytes`. `titled` says that the first line with content may be
 /// a title rather than data.
-pub(super) fn text<'a>(
+pub(crate) fn text<'a>(
     bytes: &'a [u8],
     source: &str,
     titled: bool,

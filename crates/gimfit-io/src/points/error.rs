@@ -40,22 +40,22 @@ pub struct ColumnLabel {
 
 impl ReadError {
     /// A problem with the file as a whole.
-    pub(super) fn file(source: &str, problem: Problem) -> Self {
+    pub(crate) fn file(source: &str, problem: Problem) -> Self {
         Self::at(source, Place::File, problem)
     }
 
     /// A problem with one line.
-    pub(super) fn line(source: &str, line: u32, problem: Problem) -> Self {
+    pub(crate) fn line(source: &str, line: u32, problem: Problem) -> Self {
         Self::at(source, Place::Line(line), problem)
     }
 
     /// A problem at a place.
-    pub(super) fn at(source: &str, place: Place, problem: Problem) -> Self {
+    pub(crate) fn at(source: &str, place: Place, problem: Problem) -> Self {
         ReadError(Box::new(Inner { source: source.to_owned(), place, column: None, problem }))
     }
 
     /// The same problem, in column `index` (from 0) of the columns `names`.
-    pub(super) fn in_column(mut self, index: usize, names: &[String]) -> Self {
+    pub(crate) fn in_column(mut self, index: usize, names: &[String]) -> Self {
         let number = index + 1;
         self.0.column = Some(ColumnLabel {
             number,
@@ -220,13 +220,13 @@ pub enum Problem {
 }
 
 /// The name of column `index` (from 0) where the file names none.
-pub(super) fn column_name(index: usize) -> String {
+pub(crate) fn column_name(index: usize) -> String {
     format!("column {}", index + 1)
 }
 
 /// A cell as it can stand in a message: control characters made visible, and
 /// no longer than a line bears.
-pub(super) fn shortened(cell: &str) -> String {
+pub(crate) fn shortened(cell: &str) -> String {
     const MOST: usize = 40;
     let mut out = String::new();
     for (count, c) in cell.chars().enumerate() {
@@ -244,7 +244,7 @@ pub(super) fn shortened(cell: &str) -> String {
 }
 
 /// Column names as a list for a message, cut where it grows too long.
-pub(super) fn list<S: AsRef<str>>(names: &[S]) -> String {
+pub(crate) fn list<S: AsRef<str>>(names: &[S]) -> String {
     const MOST: usize = 24;
     let mut out =
         names.iter().take(MOST).map(|name| shortened(name.as_ref())).collect::<Vec<_>>().join(", ");
@@ -255,7 +255,7 @@ pub(super) fn list<S: AsRef<str>>(names: &[S]) -> String {
 }
 
 /// "1 cell", "2 cells".
-pub(super) fn counted(count: usize, noun: &str) -> String {
+pub(crate) fn counted(count: usize, noun: &str) -> String {
     match count {
         1 => format!("1 {noun}"),
         _ => format!("{count} {noun}s"),

@@ -101,7 +101,8 @@ fn find(bytes: &[u8], extension: &str, notes: &mut Vec<String>) -> FormatChoice 
     }
 }
 
-fn is_markup(bytes: &[u8]) -> bool {
+/// Whether the content starts as XML or HTML does.
+pub(crate) fn is_markup(bytes: &[u8]) -> bool {
     let body = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let start = body.trim_ascii_start();
     start.first() == Some(&b'<')
@@ -126,7 +127,8 @@ fn refuse_part(source: &str, options: &ReadOptions) -> Result<(), ReadError> {
     }
 }
 
-fn note_text_options(options: &ReadOptions, notes: &mut Vec<String>) {
+/// Notes that options for text have no meaning in this format.
+pub(crate) fn note_text_options(options: &ReadOptions, notes: &mut Vec<String>) {
     if options.delimiter.is_some() || options.decimal.is_some() {
         notes.push(
             "The separator and the decimal mark asked for have no meaning in this format and were \

@@ -11,17 +11,17 @@ use super::error::{Problem, ReadError};
 const LIMIT: u64 = 4 << 30;
 
 /// How messages name the input at `path`.
-pub(super) fn source_name(path: &Path) -> String {
+pub(crate) fn source_name(path: &Path) -> String {
     if is_standard_input(path) { "standard input".to_owned() } else { path.display().to_string() }
 }
 
 /// The ending of the file's name, without its dot.
-pub(super) fn extension(path: &Path) -> Option<String> {
+pub(crate) fn extension(path: &Path) -> Option<String> {
     Some(path.extension()?.to_str()?.to_owned())
 }
 
 /// All bytes of the input at `path`.
-pub(super) fn read_bytes(path: &Path, source: &str) -> Result<Vec<u8>, ReadError> {
+pub(crate) fn read_bytes(path: &Path, source: &str) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
     let read = if is_standard_input(path) {
         std::io::stdin().lock().take(LIMIT + 1).read_to_end(&mut bytes)

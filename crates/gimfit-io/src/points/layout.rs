@@ -9,30 +9,33 @@ use super::options::Delimiter;
 use super::rows::Rows;
 
 /// The shape of a table.
-pub(super) struct Layout {
+pub(crate) struct Layout {
     /// The line of the header, if there is one.
-    pub(super) header: Option<u32>,
+    pub(crate) header: Option<u32>,
     /// The names of the columns; "column 1" and so on where none is given.
-    pub(super) names: Vec<String>,
+    pub(crate) names: Vec<String>,
     /// The line that set the number of columns.
-    pub(super) set_by: u32,
+    pub(crate) set_by: u32,
     /// The first line of data.
-    pub(super) first_line: u32,
+    pub(crate) first_line: u32,
     /// Whether the rows end with a separator.
-    pub(super) ends_separated: bool,
+    pub(crate) ends_separated: bool,
     /// For each column, whether the first row of data has text there.
-    pub(super) text_first: Vec<bool>,
+    pub(crate) text_first: Vec<bool>,
 }
 
-struct Row {
-    line: u32,
-    cells: Vec<String>,
+/// One row of cells.
+pub(crate) struct Row {
+    /// Its line in the file.
+    pub(crate) line: u32,
+    /// Its cells.
+    pub(crate) cells: Vec<String>,
 }
 
 impl Row {
     /// Whether the row has a separator after its last cell, or an empty cell
     /// there.
-    fn ends_empty(&self, separator: Delimiter) -> bool {
+    pub(crate) fn ends_empty(&self, separator: Delimiter) -> bool {
         separator != Delimiter::Blanks
             && self.cells.len() > 1
             && self.cells.last().is_some_and(String::is_empty)
@@ -40,7 +43,7 @@ impl Row {
 }
 
 /// The shape of the table in `rows`.
-pub(super) fn find(
+pub(crate) fn find(
     rows: &Rows<'_>,
     source: &str,
     notes: &mut Vec<String>,
@@ -140,7 +143,8 @@ fn with_header(header: Row, row: &Row, separator: Delimiter, notes: &mut Vec<Str
     }
 }
 
-fn note_ends(notes: &mut Vec<String>) {
+/// Notes that a closing separator is no empty cell.
+pub(crate) fn note_ends(notes: &mut Vec<String>) {
     notes.push(
         "Each row ends with a separator, which is taken as its end and not as an empty cell."
             .to_owned(),
@@ -153,7 +157,8 @@ fn texts(row: &Row, width: usize) -> Vec<bool> {
     texts
 }
 
-fn first_two(rows: &Rows<'_>, source: &str) -> Result<Vec<Row>, ReadError> {
+/// The first two rows, or what there is of them.
+pub(crate) fn first_two(rows: &Rows<'_>, source: &str) -> Result<Vec<Row>, ReadError> {
     let mut found: Vec<Row> = Vec::new();
     rows.visit(|line, cells| {
         let cells: Vec<String> = cells.take(MOST_COLUMNS + 2).map(str::to_owned).collect();
@@ -174,7 +179,7 @@ fn first_two(rows: &Rows<'_>, source: &str) -> Result<Vec<Row>, ReadError> {
 
 impl Layout {
     /// The error for a row of `found` cells.
-    pub(super) fn ragged(
+    pub(crate) fn ragged(
         &self,
         source: &str,
         line: u32,

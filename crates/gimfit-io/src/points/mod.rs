@@ -9,27 +9,27 @@
 //! file, the line and the column.
 
 mod airfoil;
-mod columns;
-mod decimal;
-mod decode;
-mod error;
-mod format;
+pub(crate) mod columns;
+pub(crate) mod decimal;
+pub(crate) mod decode;
+pub(crate) mod error;
+pub(crate) mod format;
 mod gpx;
 mod gpx_guard;
 mod gpx_plane;
-mod input;
-mod layout;
+pub(crate) mod input;
+pub(crate) mod layout;
 mod lines;
-mod npy;
-mod npy_header;
-mod number;
+pub(crate) mod npy;
+pub(crate) mod npy_header;
+pub(crate) mod number;
 mod number_list;
 mod options;
 mod quoted;
-mod rows;
-mod separator;
+pub(crate) mod rows;
+pub(crate) mod separator;
 mod table;
-mod text;
+pub(crate) mod text;
 
 #[cfg(test)]
 mod test_broken;

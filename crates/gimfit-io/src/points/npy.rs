@@ -14,7 +14,7 @@ use super::options::ReadOptions;
 use super::table::{PointFormat, PointTable};
 
 /// What every array file starts with.
-pub(super) const MAGIC: &[u8] = b"\x93NUMPY";
+pub(crate) const MAGIC: &[u8] = b"\x93NUMPY";
 
 /// Integers up to here are doubles exactly.
 const EXACT: u64 = 1 << 53;
@@ -75,7 +75,7 @@ pub(super) fn read(
 pub(super) fn read_list(bytes: &[u8], source: &str) -> Result<Vec<f64>, ReadError> {
     let refuse = |text| ReadError::file(source, Problem::Array(text));
     let array = open(bytes).map_err(refuse)?;
-    if array.axes != 1 {
+    if array.shape.len() != 1 {
         return Err(refuse(format!(
             "the array has shape ({}, {}), but a list of numbers has one axis; save a.ravel()",
             array.rows, array.columns
@@ -92,13 +92,15 @@ pub(super) fn read_list(bytes: &[u8], source: &str) -> Result<Vec<f64>, ReadErro
         .collect()
 }
 
-struct Array<'a> {
+/// An array whose bytes are all there.
+pub(crate) struct Array<'a> {
     data: &'a [u8],
     kind: Kind,
     rows: usize,
     columns: usize,
-    axes: usize,
-    fortran_order: bool,
+    /// The lengths along each axis.
+    pub(crate) shape: Vec<u64>,
+    pub(crate) fortran_order: bool,
 }
 
 /// The number kind: 'f', 'i' or 'u', bytes of each, and their order.
@@ -112,6 +114,14 @@ struct Kind {
 /// Checks the header against the file, so that nothing is allocated for
 /// numbers that are not there.
 fn open(bytes: &[u8]) -> Result<Array<'_>, String> {
+    open_as(bytes, shape)
+}
+
+/// As [`open`], the array taken as the rows and columns that `shape` says.
+pub(crate) fn open_as(
+    bytes: &[u8],
+    shape: impl Fn(&Header) -> Result<(u64, u64), String>,
+) -> Result<Array<'_>, String> {
     let short = || "the file ends within the header of the array; save it again".to_owned();
     let rest = bytes
         .strip_prefix(MAGIC)
@@ -159,7 +169,7 @@ fn open(bytes: &[u8]) -> Result<Array<'_>, String> {
         kind,
         rows,
         columns,
-        axes: header.shape.len(),
+        shape: header.shape,
         fortran_order: header.fortran_order,
     })
 }
@@ -181,7 +191,8 @@ fn shape(header: &Header) -> Result<(u64, u64), String> {
     }
 }
 
-fn shape_text(header: &Header) -> String {
+/// The shape as Python writes it, without the brackets.
+pub(crate) fn shape_text(header: &Header) -> String {
     let lengths: Vec<String> = header.shape.iter().map(u64::to_string).collect();
     match lengths.as_slice() {
         [one] => format!("{one},"),
@@ -218,7 +229,7 @@ fn kind(descr: &str) -> Result<Kind, String> {
 
 impl Array<'_> {
     /// The number in a row and a column, and whether it is exact.
-    fn value(&self, row: usize, column: usize) -> (f64, bool) {
+    pub(crate) fn value(&self, row: usize, column: usize) -> (f64, bool) {
         let index = match self.fortran_order {
             true => column * self.rows + row,
             false => row * self.columns + column,

@@ -2,13 +2,13 @@
 
 /// What the header says.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Header {
+pub(crate) struct Header {
     /// The kind of number, such as `<f8`.
-    pub(super) descr: String,
+    pub(crate) descr: String,
     /// Whether the first index runs fastest.
-    pub(super) fortran_order: bool,
+    pub(crate) fortran_order: bool,
     /// The lengths along each axis.
-    pub(super) shape: Vec<u64>,
+    pub(crate) shape: Vec<u64>,
 }
 
 /// Reads `{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2), }`.

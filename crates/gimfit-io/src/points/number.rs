@@ -10,7 +10,7 @@ use super::options::DecimalMark;
 
 /// Why a cell is no usable number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Fault {
+pub(crate) enum Fault {
     /// Nothing in it.
     Empty,
     /// Something else in it.
@@ -25,7 +25,7 @@ pub(super) enum Fault {
 
 /// The number in `cell`, which is trimmed.
 #[inline]
-pub(super) fn parse(cell: &str, mark: DecimalMark) -> Result<f64, Fault> {
+pub(crate) fn parse(cell: &str, mark: DecimalMark) -> Result<f64, Fault> {
     let plain = match mark {
         DecimalMark::Point => cell.parse().ok(),
         DecimalMark::Comma => short_with_comma(cell),
@@ -94,7 +94,7 @@ fn fortran(cell: &str) -> Option<f64> {
 
 /// Whether a cell is meant as a number, readable or not: then the line it
 /// stands in is no header, and a fault in it is the file's.
-pub(super) fn looks_numeric(cell: &str) -> bool {
+pub(crate) fn looks_numeric(cell: &str) -> bool {
     if matches!(parse(cell, DecimalMark::Point), Ok(_) | Err(Fault::NotFinite | Fault::TooLarge)) {
         return true;
     }
@@ -104,18 +104,18 @@ pub(super) fn looks_numeric(cell: &str) -> bool {
 }
 
 /// Whether a cell says that a value is missing.
-pub(super) fn says_missing(cell: &str) -> bool {
+pub(crate) fn says_missing(cell: &str) -> bool {
     const WORDS: [&str; 8] = ["na", "n/a", "null", "none", "missing", "-", "--", "?"];
     WORDS.iter().any(|word| cell.eq_ignore_ascii_case(word))
 }
 
 /// Whether a cell is text: neither empty, nor a number, nor a missing value.
-pub(super) fn is_text(cell: &str) -> bool {
+pub(crate) fn is_text(cell: &str) -> bool {
     !cell.is_empty() && !looks_numeric(cell) && !says_missing(cell)
 }
 
 /// Whether `cell`, read as zero, was written as something else.
-pub(super) fn vanished(cell: &str) -> bool {
+pub(crate) fn vanished(cell: &str) -> bool {
     cell.bytes().take_while(|b| !b.is_ascii_alphabetic()).any(|b| matches!(b, b'1'..=b'9'))
 }
 

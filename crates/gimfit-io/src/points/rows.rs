@@ -14,10 +14,10 @@ use super::options::Delimiter;
 use super::quoted::Quoted;
 
 /// The rows of a text.
-pub(super) struct Rows<'a> {
-    pub(super) separator: Delimiter,
+pub(crate) struct Rows<'a> {
+    pub(crate) separator: Delimiter,
     /// Whether cells may have been in quotation marks.
-    pub(super) may_be_quoted: bool,
+    pub(crate) may_be_quoted: bool,
     text: &'a str,
     rules: LineRules,
     quoted: Option<Quoted>,
@@ -25,17 +25,17 @@ pub(super) struct Rows<'a> {
 
 /// What stood between the rows.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(super) struct Skipped {
+pub(crate) struct Skipped {
     /// Lines that were comments alone.
-    pub(super) comment_lines: usize,
+    pub(crate) comment_lines: usize,
     /// Comments after content.
-    pub(super) comments_after_rows: usize,
+    pub(crate) comments_after_rows: usize,
     /// Blank lines with rows before and after them.
-    pub(super) blank_lines_between: usize,
+    pub(crate) blank_lines_between: usize,
 }
 
 impl<'a> Rows<'a> {
-    pub(super) fn new(
+    pub(crate) fn new(
         text: &'a str,
         separator: Delimiter,
         source: &str,
@@ -55,7 +55,7 @@ impl<'a> Rows<'a> {
 
     /// Calls `visitor` with the line number and the cells of each row, until
     /// it breaks off or fails.
-    pub(super) fn visit<E: From<ReadError>>(
+    pub(crate) fn visit<E: From<ReadError>>(
         &self,
         mut visitor: impl FnMut(u32, Cells<'_>) -> Result<ControlFlow<()>, E>,
     ) -> Result<Skipped, E> {
@@ -101,7 +101,7 @@ fn separator_byte(separator: Delimiter) -> Option<u8> {
 }
 
 /// The cells of one row, trimmed.
-pub(super) enum Cells<'r> {
+pub(crate) enum Cells<'r> {
     /// Cells between single bytes.
     Separated {
         /// What is not yet given out; `None` after the last cell.

@@ -16,7 +16,7 @@ const SAMPLE: usize = 64;
 const LINE_SAMPLE: usize = 1 << 16;
 
 /// The separator of `text`.
-pub(super) fn find(text: &str, extension: &str, options: &ReadOptions) -> Delimiter {
+pub(crate) fn find(text: &str, extension: &str, options: &ReadOptions) -> Delimiter {
     if let Some(delimiter) = options.delimiter {
         return delimiter;
     }

@@ -21,7 +21,7 @@ use super::separator;
 use super::table::{PointFormat, PointTable};
 
 /// Reads the table in `text`; `extension` is in lower case, empty if unknown.
-pub(super) fn read(
+pub(crate) fn read(
     text: &str,
     source: &str,
     extension: &str,
@@ -61,7 +61,7 @@ pub(super) fn read(
             })?
         }
     };
-    note_skipped(&columns, &mut notes);
+    note_skipped(columns.skipped, columns.vanished, &mut notes);
     Ok(PointTable {
         source: source.to_owned(),
         format: match separator {
@@ -127,7 +127,7 @@ struct Columns {
 }
 
 /// Why reading ended early.
-enum Stop {
+pub(crate) enum Stop {
     Error(ReadError),
     /// A cell that should be a number has a comma.
     Comma,
@@ -286,35 +286,36 @@ impl Reader<'_> {
     }
 }
 
-fn note_skipped(columns: &Columns, notes: &mut Vec<String>) {
-    let Skipped { comment_lines, comments_after_rows, blank_lines_between } = columns.skipped;
-    let skipped = |count| if count == 1 { "was" } else { "were" };
+/// Notes what stood between the rows, and how many numbers were read as 0.
+pub(crate) fn note_skipped(skipped: Skipped, vanished: usize, notes: &mut Vec<String>) {
+    let Skipped { comment_lines, comments_after_rows, blank_lines_between } = skipped;
+    let were = |count| if count == 1 { "was" } else { "were" };
     if comment_lines > 0 {
         notes.push(format!(
             "{} {} skipped.",
             counted(comment_lines, "comment line"),
-            skipped(comment_lines)
+            were(comment_lines)
         ));
     }
     if comments_after_rows > 0 {
         notes.push(format!(
             "{} after a row {} skipped.",
             counted(comments_after_rows, "comment"),
-            skipped(comments_after_rows)
+            were(comments_after_rows)
         ));
     }
     if blank_lines_between > 0 {
         notes.push(format!(
             "{} between rows {} skipped; the rows before and after are one curve.",
             counted(blank_lines_between, "blank line"),
-            skipped(blank_lines_between)
+            were(blank_lines_between)
         ));
     }
-    if columns.vanished > 0 {
+    if vanished > 0 {
         notes.push(format!(
             "{} too small for a double-precision number {} read as 0.",
-            counted(columns.vanished, "number"),
-            skipped(columns.vanished)
+            counted(vanished, "number"),
+            were(vanished)
         ));
     }
 }

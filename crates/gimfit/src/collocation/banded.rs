@@ -80,14 +80,7 @@ impl CollocationOperator for BandedCollocation {
     }
 
     fn apply(&self, x: &[f64], dimension: usize, result: &mut [f64]) {
-        result.fill(0.0);
-        for (j, point) in result.chunks_exact_mut(dimension).enumerate() {
-            for (column, weight) in self.row(j) {
-                for (y, x) in point.iter_mut().zip(&x[column * dimension..]) {
-                    *y += weight * x;
-                }
-            }
-        }
+        kernel::apply(self.rows(), x, dimension, result);
     }
 
     fn difference_vectors(

@@ -83,12 +83,12 @@ fn residual_of<const W: usize, const D: usize>(
         let mut square = 0.0;
         if D == 0 {
             r.copy_from_slice(q);
-            subtract_row::<W, D>(rows, first, weights, x, r);
+            accumulate_row::<W, D, false>(rows, first, weights, x, r);
             r.iter().for_each(|component| square += component * component);
         } else {
             let mut difference = [0.0; D];
             difference.copy_from_slice(q);
-            subtract_row::<W, D>(rows, first, weights, x, &mut difference);
+            accumulate_row::<W, D, false>(rows, first, weights, x, &mut difference);
             difference.iter().for_each(|component| square += component * component);
             r.copy_from_slice(&difference);
         }
@@ -102,9 +102,30 @@ fn residual_of<const W: usize, const D: usize>(
     (largest.max(0.0), index, sum)
 }
 
-/// `point -= sum_k weights[k] x[column k]`.
+/// `result = A x`.
+pub(crate) fn apply(rows: Rows<'_>, x: &[f64], dimension: usize, result: &mut [f64]) {
+    dispatch!(apply_of, rows.width, dimension, rows, x, dimension, result);
+}
+
 #[inline(always)]
-fn subtract_row<const W: usize, const D: usize>(
+fn apply_of<const W: usize, const D: usize>(
+    rows: Rows<'_>,
+    x: &[f64],
+    dimension: usize,
+    result: &mut [f64],
+) {
+    let width = if W == 0 { rows.width } else { W };
+    let dimension = if D == 0 { dimension } else { D };
+    let lines = rows.first.iter().zip(rows.weights.chunks_exact(width));
+    for ((&first, weights), point) in lines.zip(result.chunks_exact_mut(dimension)) {
+        point.fill(0.0);
+        accumulate_row::<W, D, true>(rows, first, weights, x, point);
+    }
+}
+
+/// Adds `sum_k weights[k] x[column k]` to a point, or takes it away.
+#[inline(always)]
+fn accumulate_row<const W: usize, const D: usize, const ADD: bool>(
     rows: Rows<'_>,
     first: i32,
     weights: &[f64],
@@ -114,20 +135,20 @@ fn subtract_row<const W: usize, const D: usize>(
     let width = if W == 0 { weights.len() } else { W };
     let dimension = if D == 0 { point.len() } else { D };
     let point = &mut point[..dimension];
+    let mut accumulate = |k: usize, control: &[f64]| {
+        for i in 0..dimension {
+            let part = weights[k] * control[i];
+            point[i] = if ADD { point[i] + part } else { point[i] - part };
+        }
+    };
     if rows.is_plain(first, width) {
         let near = &x[first as usize * dimension..][..width * dimension];
         for k in 0..width {
-            let control = &near[k * dimension..][..dimension];
-            for i in 0..dimension {
-                point[i] -= weights[k] * control[i];
-            }
+            accumulate(k, &near[k * dimension..][..dimension]);
         }
     } else {
         for k in 0..width {
-            let control = &x[rows.column(first, k) * dimension..][..dimension];
-            for i in 0..dimension {
-                point[i] -= weights[k] * control[i];
-            }
+            accumulate(k, &x[rows.column(first, k) * dimension..][..dimension]);
         }
     }
 }

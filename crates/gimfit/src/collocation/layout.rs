@@ -49,6 +49,31 @@ impl ControlLayout {
     }
 }
 
+/// [`ControlLayout`]s of the two directions of a net.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NetLayout {
+    /// Of the rows, direction u.
+    pub u: ControlLayout,
+    /// Of the columns, direction v.
+    pub v: ControlLayout,
+    /// Points that move in direction v.
+    pub columns: usize,
+}
+
+impl NetLayout {
+    /// The stored net of shape (n_u, n_v, dimension) for the moving one of shape (m_u, m_v,
+    /// dimension).
+    #[must_use]
+    pub fn expand(&self, moving: Vec<f64>, dimension: usize) -> Vec<f64> {
+        let line = self.columns * dimension;
+        let tall = self.u.expand(moving, line);
+        if self.v == ControlLayout::Free {
+            return tall;
+        }
+        tall.chunks_exact(line).flat_map(|row| self.v.expand(row.to_vec(), dimension)).collect()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -4,6 +4,7 @@ mod band_kernel;
 mod banded;
 mod build;
 mod factor;
+mod grid;
 pub(crate) mod kernel;
 mod layout;
 mod spectrum;
@@ -12,7 +13,8 @@ pub use banded::BandedCollocation;
 pub(crate) use build::wrap;
 pub use build::{Interpolation, interpolation};
 pub use factor::BandFactors;
-pub use layout::ControlLayout;
+pub use grid::{AcrossCollocation, AlongCollocation, TensorCollocation};
+pub use layout::{ControlLayout, NetLayout};
 pub use spectrum::{EigenvalueBounds, gauss_seidel_rate, smallest_eigenvalue};
 
 /// What an iteration needs of `A = [B_i(t_j)]`, whatever the geometry behind it. Vectors are flat

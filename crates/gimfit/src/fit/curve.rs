@@ -1,22 +1,18 @@
 //! Interpolation of ordered points by a B-spline curve.
 
-use super::CurveOptions;
-use super::keep::Keeper;
-use super::method::{ChosenRule, choose};
+use super::method::choose;
+use super::prepare::{Prepared, prepare};
+use super::solve::{Size, Task, norm, solve, unscaled};
+use super::{CurveOptions, KeptFit};
 use crate::Error;
 use crate::collocation::{ControlLayout, Interpolation, interpolation, wrap};
 use crate::geometry::Curve;
-use crate::iteration::{
-    HistoryEntry, IterationState, NoObserver, Observer, Outcome, ROUNDING, Stopping, Termination,
-    run,
-};
+use crate::iteration::{NoObserver, Observer};
 use crate::knots::{KnotPlacement, KnotVector, place_knots};
 use crate::parameters::{Parameterization, Parameters, assign_parameters};
 use crate::points::{Extent, Points, PointsView, PowerOfTwoScale};
 use crate::projection::largest_deviation;
 use crate::report::CurveReport;
-
-use super::prepare::{Prepared, prepare};
 
 /// A fitted curve and the account of how it came about.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,15 +38,6 @@ impl CurveFit {
     pub fn residuals(&self) -> Vec<f64> {
         self.difference_vectors.iter().map(norm).collect()
     }
-}
-
-/// A fit of an earlier iteration; its knots are those of the final curve.
-#[derive(Debug, Clone, PartialEq)]
-pub struct KeptFit {
-    /// Steps taken and residuals reached.
-    pub entry: HistoryEntry,
-    /// Its control points as stored in a curve, shape (n, dimension).
-    pub control_points: Points,
 }
 
 /// Fits a B-spline curve through ordered points by progressive-iterative approximation.
@@ -91,8 +78,8 @@ pub fn fit_curve_observed<'a>(
 ) -> Result<CurveFit, Error> {
     let prepared = prepare(points.into(), options)?;
     let Prepared { cleaned, extent, parameterization, mut choices, dimension } = prepared;
-    let scale = PowerOfTwoScale::for_magnitude(extent.largest_coordinate());
-    let data = scale.apply(&cleaned.coordinates);
+    let size = Size::of(extent);
+    let data = size.scale.apply(&cleaned.coordinates);
     let view = PointsView::new(dimension, &data)?;
     let renumber = |error: Error| match &cleaned.kept {
         Some(kept) => error.renumbered(kept),
@@ -118,8 +105,8 @@ pub fn fit_curve_observed<'a>(
         }
     };
     let knots = place_knots(options.degree, &parameters, &placement)?;
-    let problem = Problem { data: view, scale, extent, parameters, knots };
-    let mut fit = solve(problem, options, observer).map_err(renumber)?;
+    let problem = Problem { data: view, size, parameters, knots };
+    let mut fit = fit_problem(problem, options, observer).map_err(renumber)?;
     fit.report.parameterization = parameterization_name(&parameterization);
     fit.report.knot_placement = placement_name(&placement);
     choices.append(&mut fit.report.choices);
@@ -149,93 +136,58 @@ pub fn interpolate<'a>(
             why: "one per point",
         });
     }
-    let scale = PowerOfTwoScale::for_magnitude(extent.largest_coordinate());
-    let data = scale.apply(points.coordinates());
+    let size = Size::of(extent);
+    let data = size.scale.apply(points.coordinates());
     let view = PointsView::new(points.dimension(), &data)?;
-    solve(Problem { data: view, scale, extent, parameters, knots }, options, &mut NoObserver)
+    fit_problem(Problem { data: view, size, parameters, knots }, options, &mut NoObserver)
 }
 
-/// Control points this many extents, and this many times the data, away from the origin are no fit
-/// that anybody wants.
-const WILD_SWING: f64 = 1e3;
-
-/// Share of the extent that rounding may take where no residual was demanded.
-const MOST_ROUNDING: f64 = 1e-9;
-
-/// Everything a run needs, in scaled coordinates but for the extent.
+/// Everything a run needs; the data are scaled.
 struct Problem<'a> {
     data: PointsView<'a>,
-    scale: PowerOfTwoScale,
-    extent: Extent,
+    size: Size,
     parameters: Parameters,
     knots: KnotVector,
 }
 
-/// Share of the extent that a residual may keep by default.
-const DEFAULT_RESIDUAL: f64 = 1e-12;
-
-fn solve(
+fn fit_problem(
     problem: Problem<'_>,
     options: &CurveOptions,
     observer: &mut dyn Observer,
 ) -> Result<CurveFit, Error> {
-    let Problem { data, scale, extent, parameters, knots } = problem;
+    let Problem { data, size, parameters, knots } = problem;
+    let scale = size.scale;
     let Interpolation { operator, layout } = interpolation(&parameters, &knots)?;
     let dimension = data.dimension();
     let gradual = options.keep.iter().copied().max().unwrap_or(0).min(options.iterations);
-    let ChosenRule { mut rule, name, mut choices, smallest_eigenvalue } =
-        choose(options.method, &options.weight, &operator, dimension, gradual)?;
-
-    let rounding_level = ROUNDING * scale.up(extent.largest_coordinate());
-    let stopping = stopping(options, scale, &extent, rounding_level, &mut choices)?;
-    let mut state = IterationState::begin(&operator, data.coordinates(), dimension);
-    let mut keeper = Keeper::new(&options.keep, layout, dimension, observer);
-    let outcome = run(&mut state, rule.as_mut(), stopping, &mut keeper);
-    let sequence = keeper.finish(scale, &outcome, &mut choices)?;
-    let Outcome { termination, iterations, mut history } = outcome;
-
-    let norms = state.norms();
-    // Every control point has its part in a difference vector, so these tell of all of them.
-    if !norms.is_finite() {
-        return Err(Error::LeavesDoubles);
-    }
-    let reached_rounding = state.rounding_level();
-    let iteration_returned = state.iteration();
-    let (control, vectors) = state.into_parts();
-    drop(rule);
+    let mut chosen = choose(options.method, &options.weight, &operator, dimension, gradual)?;
+    let stopping = size.stopping(options.residual, options.iterations, &mut chosen.choices)?;
+    let expand = |control| layout.expand(control, dimension);
+    let task = Task {
+        operator: &operator,
+        data: data.coordinates(),
+        dimension,
+        size: &size,
+        stopping,
+        keep: &options.keep,
+        expand: &expand,
+    };
+    let solved = solve(&task, &mut chosen, observer)?;
+    let (method, smallest_eigenvalue) = (chosen.name, chosen.smallest_eigenvalue);
+    drop(chosen);
     drop(operator);
-    if termination == Termination::Residual && norms.max > stopping.residual {
-        choices.push(format!(
-            "residual: {:e}, what rounding leaves with control points this large",
-            scale.undo(reached_rounding)
-        ));
-    }
-
-    let swing = reached_rounding / (ROUNDING * scale.up(extent.diagonal()));
-    if swing > WILD_SWING && reached_rounding > WILD_SWING * rounding_level {
-        choices.push(format!(
-            "caution: control points reach {swing:.0e} times the extent of the data; this \
-             interpolant swings wildly between points spaced so unevenly: lower the degree, or use \
-             centripetal parameters"
-        ));
-    }
 
     let (parameters, spacing_ratio) = finish_parameters(parameters, &knots, layout);
-    let stored = Points::new(dimension, layout.expand(control, dimension))?;
-    let curve = Curve::new(knots, stored)?;
-    let (max_deviation, max_deviation_index) = if norms.max <= rounding_level {
+    let curve = Curve::new(knots, Points::new(dimension, expand(solved.control))?)?;
+    let norms = solved.norms;
+    let (max_deviation, max_deviation_index) = if norms.max <= size.rounding_level() {
         // Down there a foot point is decided by rounding; the residual bounds the distance.
         (norms.max, norms.max_index)
     } else {
-        let residuals: Vec<f64> = vectors.chunks_exact(dimension).map(norm).collect();
+        let residuals: Vec<f64> = solved.vectors.chunks_exact(dimension).map(norm).collect();
         largest_deviation(&curve, data, &parameters, &residuals)?
     };
     let curve = unscale(curve, scale)?;
-    let difference_vectors = unscaled(Points::new(dimension, vectors)?, scale)?;
-    for entry in &mut history {
-        entry.max_residual = scale.undo(entry.max_residual);
-        entry.rms_residual = scale.undo(entry.rms_residual);
-    }
     let report = CurveReport {
         points: data.len(),
         control_points: curve.control_points().len(),
@@ -244,13 +196,13 @@ fn solve(
         closed: curve.is_periodic(),
         parameterization: "given",
         knot_placement: "given",
-        method: name,
-        choices,
-        iterations,
-        iteration_returned,
-        termination,
+        method,
+        choices: solved.choices,
+        iterations: solved.iterations,
+        iteration_returned: solved.iteration_returned,
+        termination: solved.termination,
         residual_target: scale.undo(stopping.residual),
-        extent: extent.diagonal(),
+        extent: size.extent.diagonal(),
         max_residual: scale.undo(norms.max),
         max_residual_index: norms.max_index,
         rms_residual: scale.undo(norms.rms),
@@ -258,52 +210,20 @@ fn solve(
         max_deviation_index,
         smallest_eigenvalue,
         spacing_ratio,
-        history,
+        history: solved.history,
     };
-    Ok(CurveFit { curve, parameters, kept_points: None, difference_vectors, report, sequence })
-}
-
-fn stopping(
-    options: &CurveOptions,
-    scale: PowerOfTwoScale,
-    extent: &Extent,
-    rounding_level: f64,
-    choices: &mut Vec<String>,
-) -> Result<Stopping, Error> {
-    let residual = match options.residual {
-        Some(residual) if residual >= 0.0 && residual.is_finite() => scale.up(residual),
-        Some(value) => {
-            return Err(Error::OutOfRange {
-                what: "residual".into(),
-                value,
-                rule: "it must be 0 or more, and finite",
-            });
-        }
-        None => {
-            let share = DEFAULT_RESIDUAL * scale.up(extent.diagonal());
-            if share < rounding_level {
-                choices.push(format!(
-                    "residual: {:e}, what rounding of the coordinates allows; 1e-12 of the extent \
-                     would be less",
-                    scale.undo(rounding_level)
-                ));
-            }
-            share.max(rounding_level)
-        }
-    };
-    Ok(Stopping {
-        residual,
-        max_iterations: options.iterations,
-        accept_rounding: if options.residual.is_none() {
-            residual.max(MOST_ROUNDING * scale.up(extent.diagonal()))
-        } else {
-            0.0
-        },
+    Ok(CurveFit {
+        curve,
+        parameters,
+        kept_points: None,
+        difference_vectors: unscaled(Points::new(dimension, solved.vectors)?, scale)?,
+        report,
+        sequence: solved.sequence,
     })
 }
 
 /// The parameters as stored with a curve, and the longest step over the shortest.
-fn finish_parameters(
+pub(super) fn finish_parameters(
     parameters: Parameters,
     knots: &KnotVector,
     layout: ControlLayout,
@@ -336,29 +256,7 @@ fn unscale(curve: Curve, scale: PowerOfTwoScale) -> Result<Curve, Error> {
     Curve::new(knots, unscaled(curve.control_points().clone(), scale)?)
 }
 
-/// Brings control points back into the unit of the data.
-pub(super) fn unscaled(points: Points, scale: PowerOfTwoScale) -> Result<Points, Error> {
-    if scale.is_identity() {
-        return Ok(points);
-    }
-    let dimension = points.dimension();
-    let mut coordinates = points.into_coordinates();
-    scale.undo_in_place(&mut coordinates);
-    if coordinates.iter().any(|x| !x.is_finite()) {
-        return Err(Error::LeavesDoubles);
-    }
-    Points::new(dimension, coordinates)
-}
-
-fn norm(vector: &[f64]) -> f64 {
-    let square: f64 = vector.iter().map(|x| x * x).sum();
-    if square.is_normal() && square.is_finite() {
-        return square.sqrt();
-    }
-    vector.iter().fold(0.0, |sum: f64, x| sum.hypot(*x))
-}
-
-fn parameterization_name(parameterization: &Parameterization) -> &'static str {
+pub(super) fn parameterization_name(parameterization: &Parameterization) -> &'static str {
     match parameterization {
         Parameterization::Chord => "chord",
         Parameterization::Centripetal => "centripetal",
@@ -368,7 +266,7 @@ fn parameterization_name(parameterization: &Parameterization) -> &'static str {
     }
 }
 
-fn placement_name(placement: &KnotPlacement) -> &'static str {
+pub(super) fn placement_name(placement: &KnotPlacement) -> &'static str {
     match placement {
         KnotPlacement::Averaged => "averaged",
         KnotPlacement::NotAKnot => "not-a-knot",

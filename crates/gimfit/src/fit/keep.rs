@@ -1,16 +1,23 @@
 //! Keeps the fits of chosen iterations while the caller's observer watches.
 
-use super::KeptFit;
-use super::curve::unscaled;
+use super::solve::unscaled;
 use crate::Error;
-use crate::collocation::ControlLayout;
-use crate::iteration::{Flow, Observer, Outcome, Snapshot};
+use crate::iteration::{Flow, HistoryEntry, Observer, Outcome, Snapshot};
 use crate::points::{Points, PowerOfTwoScale};
+
+/// A fit of an earlier iteration; its knots are those of the final one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct KeptFit {
+    /// Steps taken and residuals reached.
+    pub entry: HistoryEntry,
+    /// Its control points as stored in the final geometry, shape (n, dimension), a net row by row.
+    pub control_points: Points,
+}
 
 pub(super) struct Keeper<'a> {
     wanted: Vec<usize>,
-    kept: Vec<(crate::iteration::HistoryEntry, Vec<f64>)>,
-    layout: ControlLayout,
+    kept: Vec<(HistoryEntry, Vec<f64>)>,
+    expand: &'a dyn Fn(Vec<f64>) -> Vec<f64>,
     dimension: usize,
     observer: &'a mut dyn Observer,
 }
@@ -18,14 +25,14 @@ pub(super) struct Keeper<'a> {
 impl<'a> Keeper<'a> {
     pub(super) fn new(
         wanted: &[usize],
-        layout: ControlLayout,
+        expand: &'a dyn Fn(Vec<f64>) -> Vec<f64>,
         dimension: usize,
         observer: &'a mut dyn Observer,
     ) -> Self {
         let mut wanted = wanted.to_vec();
         wanted.sort_unstable();
         wanted.dedup();
-        Self { wanted, kept: Vec::new(), layout, dimension, observer }
+        Self { wanted, kept: Vec::new(), expand, dimension, observer }
     }
 
     /// The fits kept, in the unit of the data; says which were never reached.
@@ -53,7 +60,7 @@ impl<'a> Keeper<'a> {
             .map(|(mut entry, control)| {
                 entry.max_residual = scale.undo(entry.max_residual);
                 entry.rms_residual = scale.undo(entry.rms_residual);
-                let stored = self.layout.expand(control, self.dimension);
+                let stored = (self.expand)(control);
                 let control_points = unscaled(Points::new(self.dimension, stored)?, scale)?;
                 Ok(KeptFit { entry, control_points })
             })

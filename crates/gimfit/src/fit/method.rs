@@ -93,7 +93,11 @@ pub(super) fn choose<'a>(
     Ok(ChosenRule { rule, name, choices, smallest_eigenvalue: eigenvalue })
 }
 
-fn check_weight(method: Method, weight: &IterationWeight, points: usize) -> Result<(), Error> {
+pub(super) fn check_weight(
+    method: Method,
+    weight: &IterationWeight,
+    points: usize,
+) -> Result<(), Error> {
     let (single, per_point) = match method {
         Method::Weighted => (true, true),
         Method::Sor => (true, false),

@@ -86,3 +86,47 @@ impl Default for CurveOptions {
         }
     }
 }
+
+/// What a caller chooses for [`fit_surface`](super::fit_surface); the defaults interpolate by a
+/// bicubic. Pairs hold direction u (rows), then direction v (columns).
+#[derive(Debug, Clone, PartialEq)]
+pub struct SurfaceOptions {
+    /// Degrees, from 1.
+    pub degrees: [usize; 2],
+    /// Whether the surface returns smoothly to its first row, its first column.
+    pub closed: [bool; 2],
+    /// How parameters are assigned; `None`: chord lengths averaged over the grid, uniform for
+    /// heights of dimension 1.
+    pub parameterizations: [Option<Parameterization>; 2],
+    /// How knots are placed; `None`: averaged.
+    pub knot_placements: [Option<KnotPlacement>; 2],
+    /// The rule that moves the control points.
+    pub method: Method,
+    /// Its weight.
+    pub weight: IterationWeight,
+    /// Whether the columns are run to their limit first, then the rows.
+    pub per_direction: bool,
+    /// Most steps; per direction, in each.
+    pub iterations: usize,
+    /// Largest residual to be reached, as in [`CurveOptions::residual`].
+    pub residual: Option<f64>,
+    /// Iterations whose fits are kept.
+    pub keep: Vec<usize>,
+}
+
+impl Default for SurfaceOptions {
+    fn default() -> Self {
+        Self {
+            degrees: [3, 3],
+            closed: [false, false],
+            parameterizations: [None, None],
+            knot_placements: [None, None],
+            method: Method::Auto,
+            weight: IterationWeight::Auto,
+            per_direction: false,
+            iterations: 1000,
+            residual: None,
+            keep: Vec::new(),
+        }
+    }
+}

@@ -1,5 +1,6 @@
 //! A B-spline curve in any dimension.
 
+use super::check_buffer;
 use crate::Error;
 use crate::basis::{basis_derivatives, basis_functions};
 use crate::knots::{Boundary, KnotVector, MAX_DEGREE};
@@ -99,7 +100,7 @@ impl Curve {
     /// # Errors
     /// [`Error::OutsideDomain`]; [`Error::WrongCount`] for a buffer of another length.
     pub fn evaluate_into(&self, t: f64, point: &mut [f64]) -> Result<(), Error> {
-        self.check_buffer(point, 0)?;
+        check_buffer(point, self.dimension())?;
         let span = self.knots.span(t)?;
         self.evaluate_on_span(span, t, point);
         Ok(())
@@ -127,7 +128,7 @@ impl Curve {
         order: usize,
         derivatives: &mut [f64],
     ) -> Result<(), Error> {
-        self.check_buffer(derivatives, order)?;
+        check_buffer(derivatives, (order + 1) * self.dimension())?;
         let span = self.knots.span(t)?;
         self.derivatives_on_span(span, t, order, derivatives);
         Ok(())
@@ -136,14 +137,7 @@ impl Curve {
     /// Parameters at `count` equal steps from one end of the domain to the other.
     #[must_use]
     pub fn equal_steps(&self, count: usize) -> Vec<f64> {
-        let (start, end) = self.domain();
-        let last = count.saturating_sub(1).max(1) as f64;
-        (0..count)
-            .map(|i| {
-                let share = i as f64 / last;
-                (start * (1.0 - share) + end * share).clamp(start, end)
-            })
-            .collect()
+        self.knots.equal_steps(count)
     }
 
     /// Exact cubic Bezier pieces, four points each, shape (pieces, 4, dimension); `None` for degrees
@@ -205,18 +199,5 @@ impl Curve {
                 *x += weight * p;
             }
         }
-    }
-
-    fn check_buffer(&self, buffer: &[f64], order: usize) -> Result<(), Error> {
-        let expected = (order + 1) * self.dimension();
-        if buffer.len() == expected {
-            return Ok(());
-        }
-        Err(Error::WrongCount {
-            what: "buffer entries",
-            given: buffer.len(),
-            expected,
-            why: "(order + 1) * dimension",
-        })
     }
 }

@@ -1,5 +1,22 @@
-//! What a fit yields: a B-spline curve that can be evaluated, derived and drawn.
+//! What a fit yields: B-spline curves and surfaces that can be evaluated, derived and drawn.
 
 mod curve;
+mod surface;
 
 pub use curve::Curve;
+pub use surface::Surface;
+
+use crate::Error;
+
+/// Refuses a buffer of another length.
+fn check_buffer(buffer: &[f64], expected: usize) -> Result<(), Error> {
+    if buffer.len() == expected {
+        return Ok(());
+    }
+    Err(Error::WrongCount {
+        what: "buffer entries",
+        given: buffer.len(),
+        expected,
+        why: "the dimension times the number of derivatives asked for",
+    })
+}

@@ -125,6 +125,19 @@ impl KnotVector {
         span
     }
 
+    /// Parameters at `count` equal steps from one end of the domain to the other.
+    #[must_use]
+    pub fn equal_steps(&self, count: usize) -> Vec<f64> {
+        let (start, end) = self.domain();
+        let last = count.saturating_sub(1).max(1) as f64;
+        (0..count)
+            .map(|i| {
+                let share = i as f64 / last;
+                (start * (1.0 - share) + end * share).clamp(start, end)
+            })
+            .collect()
+    }
+
     /// Greville abscissa of each stored control point: the mean of its `p` inner knots.
     #[must_use]
     pub fn greville_abscissae(&self) -> Vec<f64> {

@@ -1,6 +1,6 @@
 //! Uniform, chord length, centripetal, the local ratio of the 2007 paper, and given parameters.
 
-use crate::points::PointsView;
+use crate::points::{GridView, PointsView};
 use crate::{Error, memory};
 
 /// How parameters are assigned to data points.
@@ -146,43 +146,83 @@ fn cumulated(
     weight: impl Fn(f64) -> f64,
 ) -> Result<Parameters, Error> {
     let count = points.len();
-    let mut values = memory::with_capacity(count);
-    let mut total = 0.0;
-    if count > 0 {
-        values.push(0.0);
-    }
-    let mut repeated = None;
-    for_each_chord(points, |j, chord| {
-        if chord == 0.0 && repeated.is_none() {
-            repeated = Some(j);
-        }
-        total += weight(chord);
-        values.push(total);
-    });
-    if let Some(second) = repeated {
-        return Err(Error::RepeatedPoints { first: second - 1, second, others: 0 });
-    }
+    let mut steps = memory::with_capacity(count);
+    for_each_chord(points, |chord| steps.push(weight(chord)));
     if closed && count > 1 {
-        let chord = distance(points.point(count - 1), points.point(0));
-        if chord == 0.0 {
-            return Err(Error::RepeatedPoints { first: 0, second: count - 1, others: 0 });
-        }
-        total += weight(chord);
+        steps.push(weight(distance(points.point(count - 1), points.point(0))));
+    }
+    from_steps(steps, closed)
+}
+
+/// Parameters on [0, 1] whose steps are in the ratio of those given: one less than there are
+/// parameters, or for a closed curve as many.
+fn from_steps(mut steps: Vec<f64>, closed: bool) -> Result<Parameters, Error> {
+    let count = steps.len() + usize::from(!closed);
+    let next = |j: usize| if j == count { 0 } else { j };
+    if let Some(first) = steps.iter().position(|&step| step == 0.0) {
+        return Err(Error::RepeatedPoints { first, second: next(first + 1), others: 0 });
+    }
+    // In place: the array holds the parameter each step starts from.
+    let mut total = 0.0;
+    for step in &mut steps {
+        total += std::mem::replace(step, total);
+    }
+    if !closed {
+        steps.push(total);
     }
     let scale = total.recip();
-    values.iter_mut().for_each(|t| *t *= scale);
-    if !closed && let Some(last) = values.last_mut() {
+    steps.iter_mut().for_each(|t| *t *= scale);
+    if !closed && let Some(last) = steps.last_mut() {
         *last = 1.0;
     }
-    let limit = if closed { 1.0 } else { f64::INFINITY };
-    let collides = (1..count).find(|&j| values[j] <= values[j - 1]);
-    if let Some(second) = collides {
+    if let Some(second) = (1..count).find(|&j| steps[j] <= steps[j - 1]) {
         return Err(Error::ParametersCollide { first: second - 1, second });
     }
-    if values.last().is_some_and(|&last| last >= limit) {
+    if closed && steps.last().is_some_and(|&last| last >= 1.0) {
         return Err(Error::ParametersCollide { first: count - 1, second: 0 });
     }
-    Ok(Parameters { values, period: closed.then_some(1.0), origin: 0.0 })
+    Ok(Parameters { values: steps, period: closed.then_some(1.0), origin: 0.0 })
+}
+
+/// Assigns parameters to the rows (`direction` 0) or the columns (1) of a grid. Chord lengths are
+/// averaged over the lines across (Lin, Wang and Dong 2004, eq. 12 and 13), then scaled to [0, 1].
+///
+/// # Errors
+/// As [`assign_parameters`], where positions are those of rows or columns;
+/// [`Error::Incompatible`] for [`Parameterization::ChordRatio`].
+pub fn assign_grid_parameters(
+    grid: GridView<'_>,
+    direction: usize,
+    closed: bool,
+    parameterization: &Parameterization,
+) -> Result<Parameters, Error> {
+    let count = grid.shape()[direction];
+    let across = grid.shape()[1 - direction];
+    let weight = match parameterization {
+        Parameterization::Uniform => return uniform(count, closed),
+        Parameterization::Given(values) => return given(count, closed, values),
+        Parameterization::ChordRatio => {
+            return Err(Error::Incompatible {
+                what: "the chord-ratio parameterization",
+                with: "a surface",
+                why: "it is for closed quadratic curves; choose chord",
+            });
+        }
+        Parameterization::Chord => |h| h,
+        Parameterization::Centripetal => f64::sqrt,
+    };
+    let point = |along: usize, line: usize| match direction {
+        0 => grid.point(along, line),
+        _ => grid.point(line, along),
+    };
+    let mean = |from: usize| {
+        let to = (from + 1) % count;
+        let sum: f64 =
+            (0..across).map(|line| weight(distance(point(from, line), point(to, line)))).sum();
+        sum / across as f64
+    };
+    let steps = if closed { count } else { count.saturating_sub(1) };
+    from_steps((0..steps).map(mean).collect(), closed)
 }
 
 fn chord_ratio(points: PointsView<'_>, closed: bool) -> Result<Parameters, Error> {
@@ -216,15 +256,14 @@ fn chord_ratio(points: PointsView<'_>, closed: bool) -> Result<Parameters, Error
     Ok(Parameters { values, period: Some(count as f64), origin: 0.0 })
 }
 
-/// Calls `visit(j, |Q_j - Q_(j-1)|)` for every point but the first; the usual dimensions are
+/// Calls `visit` with the distance of every point from its predecessor; the usual dimensions are
 /// unrolled.
-fn for_each_chord(points: PointsView<'_>, mut visit: impl FnMut(usize, f64)) {
-    let dimension = points.dimension();
+fn for_each_chord(points: PointsView<'_>, mut visit: impl FnMut(f64)) {
     let count = points.len();
-    match dimension {
-        2 => (1..count).for_each(|j| visit(j, fixed::<2>(points, j))),
-        3 => (1..count).for_each(|j| visit(j, fixed::<3>(points, j))),
-        _ => (1..count).for_each(|j| visit(j, distance(points.point(j - 1), points.point(j)))),
+    match points.dimension() {
+        2 => (1..count).for_each(|j| visit(fixed::<2>(points, j))),
+        3 => (1..count).for_each(|j| visit(fixed::<3>(points, j))),
+        _ => (1..count).for_each(|j| visit(distance(points.point(j - 1), points.point(j)))),
     }
 }
 

@@ -2,4 +2,4 @@
 
 mod assign;
 
-pub use assign::{Parameterization, Parameters, assign_parameters};
+pub use assign::{Parameterization, Parameters, assign_grid_parameters, assign_parameters};

@@ -2,11 +2,13 @@
 
 mod duplicates;
 mod extent;
+mod grid;
 mod scale;
 
 pub use duplicates::Duplicates;
 pub(crate) use duplicates::{Cleaned, clean};
 pub use extent::Extent;
+pub use grid::{GridView, PointGrid};
 pub(crate) use scale::PowerOfTwoScale;
 
 use crate::Error;

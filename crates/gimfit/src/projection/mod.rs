@@ -1,5 +1,7 @@
-//! Foot points: the nearest points of a curve, looked for near a known parameter.
+//! Foot points: the nearest points of a curve or surface, looked for near known parameters.
 
-mod foot_point;
+mod curve;
+mod surface;
 
-pub use foot_point::{FootPoint, largest_deviation, local_foot_point};
+pub use curve::{FootPoint, largest_deviation, local_foot_point};
+pub use surface::{SurfaceFootPoint, largest_surface_deviation, local_surface_foot_point};

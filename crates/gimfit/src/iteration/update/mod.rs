@@ -2,6 +2,7 @@
 
 mod chebyshev;
 mod gauss_seidel;
+mod grid;
 mod jacobi;
 mod pia;
 mod preconditioned;
@@ -10,6 +11,7 @@ mod weighted;
 
 pub use chebyshev::Chebyshev;
 pub use gauss_seidel::{GaussSeidel, Sor};
+pub use grid::{Across, Along, Both};
 pub use jacobi::Jacobi;
 pub use pia::Pia;
 pub use preconditioned::Preconditioned;
@@ -24,4 +26,14 @@ pub trait UpdateRule: std::fmt::Debug {
 
     /// Forgets the steps taken, before a run is repeated.
     fn reset(&mut self) {}
+}
+
+impl<R: UpdateRule + ?Sized> UpdateRule for Box<R> {
+    fn adjust(&mut self, iteration: usize, vectors: &mut [f64], dimension: usize) {
+        (**self).adjust(iteration, vectors, dimension);
+    }
+
+    fn reset(&mut self) {
+        (**self).reset();
+    }
 }

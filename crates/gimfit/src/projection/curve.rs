@@ -78,7 +78,8 @@ fn newton_step(jet: &[f64], point: &[f64], dimension: usize) -> Option<f64> {
     (step.is_finite() && step != 0.0).then_some(step)
 }
 
-fn inside(t: f64, (start, end): (f64, f64), periodic: bool) -> f64 {
+/// Brings a parameter into its domain: round a periodic one, to the end of an open one.
+pub(super) fn inside(t: f64, (start, end): (f64, f64), periodic: bool) -> f64 {
     if periodic && !(start..=end).contains(&t) {
         return (start + (t - start).rem_euclid(end - start)).clamp(start, end);
     }
@@ -102,14 +103,22 @@ pub fn largest_deviation(
     parameters: &[f64],
     residuals: &[f64],
 ) -> Result<(f64, usize), Error> {
+    largest_by(residuals, |j| Ok(local_foot_point(curve, points.point(j), parameters[j])?.distance))
+}
+
+/// The largest of `distance(j)`, none of which exceeds `residuals[j]`, looking only at those that
+/// can.
+pub(super) fn largest_by(
+    residuals: &[f64],
+    distance: impl Fn(usize) -> Result<f64, Error>,
+) -> Result<(f64, usize), Error> {
     let worst =
         (0..residuals.len()).fold(0, |w, j| if residuals[j] > residuals[w] { j } else { w });
     let mut largest = (0.0, worst);
     for j in std::iter::once(worst).chain(0..residuals.len()) {
         if residuals[j] > largest.0 {
-            let foot = local_foot_point(curve, points.point(j), parameters[j])?;
             // Evaluating again rounds anew; the residual stays an upper bound.
-            let distance = foot.distance.min(residuals[j]);
+            let distance = distance(j)?.min(residuals[j]);
             if distance > largest.0 {
                 largest = (distance, j);
             }

@@ -1,0 +1,182 @@
+//! What every recipe shares: run a rule to its stop, look at what it left, and bring everything
+//! back into the unit of the data.
+
+use super::KeptFit;
+use super::keep::Keeper;
+use super::method::ChosenRule;
+use crate::Error;
+use crate::collocation::{CollocationOperator, ResidualNorms};
+use crate::iteration::{
+    HistoryEntry, IterationState, Observer, Outcome, ROUNDING, Stopping, Termination, run,
+};
+use crate::points::{Extent, Points, PowerOfTwoScale};
+
+/// Share of the extent that a residual may keep by default.
+const DEFAULT_RESIDUAL: f64 = 1e-12;
+/// Share of the extent that rounding may take where no residual was demanded.
+const MOST_ROUNDING: f64 = 1e-9;
+/// Control points this many extents, and this many times the data, away from the origin are no fit
+/// that anybody wants.
+const WILD_SWING: f64 = 1e3;
+
+/// The size of the data, in their own unit and as the iteration sees them.
+#[derive(Debug, Clone)]
+pub(super) struct Size {
+    pub(super) scale: PowerOfTwoScale,
+    pub(super) extent: Extent,
+}
+
+impl Size {
+    pub(super) fn of(extent: Extent) -> Self {
+        Self { scale: PowerOfTwoScale::for_magnitude(extent.largest_coordinate()), extent }
+    }
+
+    /// Residual that rounding of the data alone explains, scaled.
+    pub(super) fn rounding_level(&self) -> f64 {
+        ROUNDING * self.scale.up(self.extent.largest_coordinate())
+    }
+
+    fn diagonal(&self) -> f64 {
+        self.scale.up(self.extent.diagonal())
+    }
+
+    /// When to stop, for the residual asked for, or the default.
+    pub(super) fn stopping(
+        &self,
+        residual: Option<f64>,
+        max_iterations: usize,
+        choices: &mut Vec<String>,
+    ) -> Result<Stopping, Error> {
+        let target = match residual {
+            Some(residual) if residual >= 0.0 && residual.is_finite() => self.scale.up(residual),
+            Some(value) => {
+                return Err(Error::OutOfRange {
+                    what: "residual".into(),
+                    value,
+                    rule: "it must be 0 or more, and finite",
+                });
+            }
+            None => {
+                let share = DEFAULT_RESIDUAL * self.diagonal();
+                let level = self.rounding_level();
+                if share < level {
+                    choices.push(format!(
+                        "residual: {:e}, what rounding of the coordinates allows; 1e-12 of the \
+                         extent would be less",
+                        self.scale.undo(level)
+                    ));
+                }
+                share.max(level)
+            }
+        };
+        let accept_rounding = match residual {
+            None => target.max(MOST_ROUNDING * self.diagonal()),
+            Some(_) => 0.0,
+        };
+        Ok(Stopping { residual: target, max_iterations, accept_rounding })
+    }
+}
+
+/// A run that has ended. Control points and difference vectors are scaled still; the rest is in the
+/// unit of the data.
+pub(super) struct Solved {
+    pub(super) control: Vec<f64>,
+    pub(super) vectors: Vec<f64>,
+    pub(super) norms: ResidualNorms,
+    pub(super) termination: Termination,
+    pub(super) iterations: usize,
+    pub(super) iteration_returned: usize,
+    pub(super) history: Vec<HistoryEntry>,
+    pub(super) choices: Vec<String>,
+    pub(super) sequence: Vec<KeptFit>,
+}
+
+/// What is to be solved.
+pub(super) struct Task<'a> {
+    pub(super) operator: &'a dyn CollocationOperator,
+    /// Scaled, shape (points, dimension).
+    pub(super) data: &'a [f64],
+    pub(super) dimension: usize,
+    pub(super) size: &'a Size,
+    pub(super) stopping: Stopping,
+    /// Iterations to keep.
+    pub(super) keep: &'a [usize],
+    /// Makes stored control points of moving ones.
+    pub(super) expand: &'a dyn Fn(Vec<f64>) -> Vec<f64>,
+}
+
+/// Runs a rule from the data to its stop.
+pub(super) fn solve(
+    task: &Task<'_>,
+    chosen: &mut ChosenRule<'_>,
+    observer: &mut dyn Observer,
+) -> Result<Solved, Error> {
+    let &Task { operator, data, dimension, size, stopping, keep, expand } = task;
+    let scale = size.scale;
+    let mut choices = std::mem::take(&mut chosen.choices);
+    let mut state = IterationState::begin(operator, data, dimension);
+    let mut keeper = Keeper::new(keep, expand, dimension, observer);
+    let outcome = run(&mut state, chosen.rule.as_mut(), stopping, &mut keeper);
+    let sequence = keeper.finish(scale, &outcome, &mut choices)?;
+    let Outcome { termination, iterations, mut history } = outcome;
+    let norms = state.norms();
+    // Every control point has its part in a difference vector, so these tell of all of them.
+    if !norms.is_finite() {
+        return Err(Error::LeavesDoubles);
+    }
+    let reached_rounding = state.rounding_level();
+    if termination == Termination::Residual && norms.max > stopping.residual {
+        choices.push(format!(
+            "residual: {:e}, what rounding leaves with control points this large",
+            scale.undo(reached_rounding)
+        ));
+    }
+    let swing = reached_rounding / (ROUNDING * size.diagonal());
+    if swing > WILD_SWING && reached_rounding > WILD_SWING * size.rounding_level() {
+        choices.push(format!(
+            "caution: control points reach {swing:.0e} times the extent of the data; this \
+             interpolant swings wildly between points spaced so unevenly: lower the degree, or use \
+             centripetal parameters"
+        ));
+    }
+    for entry in &mut history {
+        entry.max_residual = scale.undo(entry.max_residual);
+        entry.rms_residual = scale.undo(entry.rms_residual);
+    }
+    let iteration_returned = state.iteration();
+    let (control, vectors) = state.into_parts();
+    Ok(Solved {
+        control,
+        vectors,
+        norms,
+        termination,
+        iterations,
+        iteration_returned,
+        history,
+        choices,
+        sequence,
+    })
+}
+
+/// Brings points back into the unit of the data.
+pub(super) fn unscaled(points: Points, scale: PowerOfTwoScale) -> Result<Points, Error> {
+    if scale.is_identity() {
+        return Ok(points);
+    }
+    let dimension = points.dimension();
+    let mut coordinates = points.into_coordinates();
+    scale.undo_in_place(&mut coordinates);
+    if coordinates.iter().any(|x| !x.is_finite()) {
+        return Err(Error::LeavesDoubles);
+    }
+    Points::new(dimension, coordinates)
+}
+
+/// Euclidean norm; vectors whose squares underflow or overflow are met with `hypot`.
+pub(super) fn norm(vector: &[f64]) -> f64 {
+    let square: f64 = vector.iter().map(|x| x * x).sum();
+    if square.is_normal() && square.is_finite() {
+        return square.sqrt();
+    }
+    vector.iter().fold(0.0, |sum: f64, x| sum.hypot(*x))
+}

@@ -1,0 +1,392 @@
+//! Interpolation of a grid of points by a tensor-product B-spline surface.
+
+use super::curve::{finish_parameters, parameterization_name, placement_name};
+use super::method::ChosenRule;
+use super::solve::{Size, Solved, Task, norm, solve, unscaled};
+use super::surface_method::{Directions, choose_across, choose_along, choose_both};
+use super::{IterationWeight, KeptFit, SurfaceOptions};
+use crate::Error;
+use crate::collocation::{
+    AcrossCollocation, AlongCollocation, CollocationOperator, Interpolation, NetLayout,
+    TensorCollocation, interpolation,
+};
+use crate::geometry::Surface;
+use crate::iteration::{HistoryEntry, NoObserver, Observer, Stopping, Termination};
+use crate::knots::{KnotPlacement, KnotVector, place_knots};
+use crate::parameters::{Parameterization, Parameters, assign_grid_parameters};
+use crate::points::{Extent, GridView, PointGrid, Points};
+use crate::projection::largest_surface_deviation;
+use crate::report::SurfaceReport;
+
+/// A fitted surface and the account of how it came about.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SurfaceFit {
+    /// The surface.
+    pub surface: Surface,
+    /// Parameters of the rows (u) and of the columns (v) of points, inside the surface's domain.
+    pub parameters: [Vec<f64>; 2],
+    /// Difference vectors `Q_ij - S(u_i, v_j)`, row by row.
+    pub difference_vectors: Points,
+    /// What happened.
+    pub report: SurfaceReport,
+    /// Fits kept on the way, with the net of each row by row.
+    pub sequence: Vec<KeptFit>,
+}
+
+impl SurfaceFit {
+    /// Norm of the difference vector at each point, row by row.
+    #[must_use]
+    pub fn residuals(&self) -> Vec<f64> {
+        self.difference_vectors.iter().map(norm).collect()
+    }
+}
+
+/// Fits a B-spline surface through a grid of points by progressive-iterative approximation.
+///
+/// # Errors
+/// What is wrong with the points or the options; see [`Error`]. A run that does not reach its
+/// residual is no error: look at [`SurfaceReport::termination`].
+///
+/// # Examples
+/// ```
+/// use gimfit::points::GridView;
+/// use gimfit::{SurfaceOptions, fit_surface};
+/// let mut points = Vec::new();
+/// for i in 0..8 {
+///     for j in 0..6 {
+///         let (x, y) = (f64::from(i), f64::from(j));
+///         points.extend([x, y, (0.5 * x).sin() * y]);
+///     }
+/// }
+/// let fit = fit_surface(GridView::new([8, 6], 3, &points)?, &SurfaceOptions::default())?;
+/// assert!(fit.report.converged());
+/// let corner = fit.surface.evaluate(0.0, 0.0)?;
+/// assert_eq!(corner, [0.0, 0.0, 0.0]);
+/// # Ok::<(), gimfit::Error>(())
+/// ```
+pub fn fit_surface(grid: GridView<'_>, options: &SurfaceOptions) -> Result<SurfaceFit, Error> {
+    fit_surface_observed(grid, options, &mut NoObserver)
+}
+
+/// As [`fit_surface`], watched step by step, as [`fit_curve_observed`](super::fit_curve_observed).
+///
+/// # Errors
+/// As [`fit_surface`].
+pub fn fit_surface_observed(
+    grid: GridView<'_>,
+    options: &SurfaceOptions,
+    observer: &mut dyn Observer,
+) -> Result<SurfaceFit, Error> {
+    let needed = options.degrees.map(|p| p.saturating_add(1));
+    if grid.points().is_empty() {
+        return Err(Error::NoPoints { needed: needed[0].saturating_mul(needed[1]) });
+    }
+    let size = Size::of(Extent::of(grid.points())?);
+    let mut choices = Vec::new();
+    let (shape, data) = open_up(grid, &size, options, &mut choices);
+    let dimension = grid.dimension();
+    let data = size.scale.apply(&data);
+    let view = GridView::new(shape, dimension, &data)?;
+    let u = direction(view, 0, options, &mut choices)?;
+    let v = direction(view, 1, options, &mut choices)?;
+
+    let directions = Directions { u: &u.built.operator, v: &v.built.operator };
+    let layout = NetLayout { u: u.built.layout, v: v.built.layout, columns: shape[1] };
+    let expand = |control| layout.expand(control, dimension);
+    let stopping = size.stopping(options.residual, options.iterations, &mut choices)?;
+    let setting = Setting { view, size: &size, directions, options, stopping, expand: &expand };
+    let (mut solved, method, smallest_eigenvalue) = if options.per_direction {
+        per_direction(&setting, observer)?
+    } else {
+        at_once(&setting, observer)?
+    };
+    choices.append(&mut solved.choices);
+
+    let finish = |direction: &Direction, parameters: Parameters| {
+        finish_parameters(parameters, &direction.knots, direction.built.layout)
+    };
+    let (t_u, ratio_u) = finish(&u, u.parameters.clone());
+    let (t_v, ratio_v) = finish(&v, v.parameters.clone());
+    let knots = [u.knots.clone(), v.knots.clone()];
+    let net_shape = knots.each_ref().map(KnotVector::control_points);
+    let net = PointGrid::new(net_shape, dimension, expand(solved.control))?;
+    let surface = Surface::new(knots.clone(), net)?;
+    let norms = solved.norms;
+    let (max_deviation, deviation_index) = if norms.max <= size.rounding_level() {
+        // Down there a foot point is decided by rounding; the residual bounds the distance.
+        (norms.max, norms.max_index)
+    } else {
+        let residuals: Vec<f64> = solved.vectors.chunks_exact(dimension).map(norm).collect();
+        largest_surface_deviation(&surface, view.points(), [&t_u, &t_v], &residuals)?
+    };
+    let scale = size.scale;
+    let cell = |index: usize| [index / shape[1], index % shape[1]];
+    let net = unscaled(surface.control_net().points().clone(), scale)?;
+    let surface =
+        Surface::new(knots, PointGrid::new(net_shape, dimension, net.into_coordinates())?)?;
+    let report = SurfaceReport {
+        points: shape,
+        control_points: net_shape,
+        degrees: options.degrees,
+        dimension,
+        closed: options.closed,
+        parameterizations: [u.parameterization, v.parameterization],
+        knot_placements: [u.knot_placement, v.knot_placement],
+        method,
+        per_direction: options.per_direction,
+        choices,
+        iterations: solved.iterations,
+        iteration_returned: solved.iteration_returned,
+        termination: solved.termination,
+        residual_target: scale.undo(stopping.residual),
+        extent: size.extent.diagonal(),
+        max_residual: scale.undo(norms.max),
+        max_residual_index: cell(norms.max_index),
+        rms_residual: scale.undo(norms.rms),
+        max_deviation: scale.undo(max_deviation),
+        max_deviation_index: cell(deviation_index),
+        smallest_eigenvalue,
+        spacing_ratios: [ratio_u, ratio_v],
+        history: solved.history,
+    };
+    Ok(SurfaceFit {
+        surface,
+        parameters: [t_u, t_v],
+        difference_vectors: unscaled(Points::new(dimension, solved.vectors)?, scale)?,
+        report,
+        sequence: solved.sequence,
+    })
+}
+
+/// A last row or column this close to the first, in units of the extent, repeats it.
+const CLOSING_GAP: f64 = 1e-9;
+
+/// The grid without the repetition of its first row or column in closed directions.
+fn open_up(
+    grid: GridView<'_>,
+    size: &Size,
+    options: &SurfaceOptions,
+    choices: &mut Vec<String>,
+) -> ([usize; 2], Vec<f64>) {
+    let [mut rows, mut columns] = grid.shape();
+    let limit = CLOSING_GAP * size.extent.diagonal();
+    let near = |a: &[f64], b: &[f64]| {
+        a.iter().zip(b).fold(0.0, |sum: f64, (a, b)| sum.hypot(a - b)) <= limit
+    };
+    let given = |k: usize| matches!(options.parameterizations[k], Some(Parameterization::Given(_)));
+    // Parameters that are given count the closing row in, or not; the caller knows.
+    if options.closed[0] && rows > 1 && !given(0) {
+        let repeats = (0..columns).all(|j| near(grid.point(0, j), grid.point(rows - 1, j)));
+        if repeats {
+            choices.push("closing: the last row repeats the first and is taken as the seam".into());
+            rows -= 1;
+        }
+    }
+    if options.closed[1] && columns > 1 && !given(1) {
+        let repeats = (0..rows).all(|i| near(grid.point(i, 0), grid.point(i, columns - 1)));
+        if repeats {
+            choices
+                .push("closing: the last column repeats the first and is taken as the seam".into());
+            columns -= 1;
+        }
+    }
+    let coordinates = (0..rows)
+        .flat_map(|i| {
+            let start = i * grid.shape()[1] * grid.dimension();
+            &grid.points().coordinates()[start..][..columns * grid.dimension()]
+        })
+        .copied()
+        .collect();
+    ([rows, columns], coordinates)
+}
+
+/// What one direction brings along.
+struct Direction {
+    parameters: Parameters,
+    knots: KnotVector,
+    built: Interpolation,
+    parameterization: &'static str,
+    knot_placement: &'static str,
+}
+
+fn direction(
+    view: GridView<'_>,
+    k: usize,
+    options: &SurfaceOptions,
+    choices: &mut Vec<String>,
+) -> Result<Direction, Error> {
+    let name = ["u", "v"][k];
+    let degree = options.degrees[k];
+    let count = view.shape()[k];
+    if count < degree.saturating_add(1) {
+        return Err(Error::TooFewLines {
+            what: ["rows", "columns"][k],
+            count,
+            degree,
+            needed: degree.saturating_add(1),
+        });
+    }
+    let parameterization = match &options.parameterizations[k] {
+        Some(parameterization) => parameterization.clone(),
+        None if view.dimension() == 1 => {
+            choices.push(format!("parameters in {name}: uniform, because heights have no chords"));
+            Parameterization::Uniform
+        }
+        None => {
+            choices.push(format!("parameters in {name}: chord lengths, averaged over the grid"));
+            Parameterization::Chord
+        }
+    };
+    let parameters = assign_grid_parameters(view, k, options.closed[k], &parameterization)
+        .map_err(|error| error.in_lines(["row", "column"][k]))?;
+    let placement = options.knot_placements[k].clone().unwrap_or_else(|| {
+        choices.push(format!("knots in {name}: averaged, because they fit any parameters"));
+        KnotPlacement::Averaged
+    });
+    let knots = place_knots(degree, &parameters, &placement)?;
+    let built = interpolation(&parameters, &knots)?;
+    Ok(Direction {
+        parameters,
+        knots,
+        built,
+        parameterization: parameterization_name(&parameterization),
+        knot_placement: placement_name(&placement),
+    })
+}
+
+/// Everything the two ways of running share.
+struct Setting<'a> {
+    view: GridView<'a>,
+    size: &'a Size,
+    directions: Directions<'a>,
+    options: &'a SurfaceOptions,
+    stopping: Stopping,
+    expand: &'a dyn Fn(Vec<f64>) -> Vec<f64>,
+}
+
+impl<'a> Setting<'a> {
+    fn task(&self, operator: &'a dyn CollocationOperator, data: &'a [f64]) -> Task<'a> {
+        Task {
+            operator,
+            data,
+            dimension: self.view.dimension(),
+            size: self.size,
+            stopping: self.stopping,
+            keep: &[],
+            expand: self.expand,
+        }
+    }
+}
+
+type Ended = (Solved, &'static str, Option<f64>);
+
+/// Moves the whole net in every step: the iterates of the 2004 paper, for PIA.
+fn at_once(setting: &Setting<'_>, observer: &mut dyn Observer) -> Result<Ended, Error> {
+    let (options, directions) = (setting.options, setting.directions);
+    let dimension = setting.view.dimension();
+    let gradual = options.keep.iter().copied().max().unwrap_or(0).min(options.iterations);
+    let mut chosen = choose_both(options.method, &options.weight, directions, dimension, gradual)?;
+    let operator = TensorCollocation::new(directions.u, directions.v, dimension);
+    let data = setting.view.points().coordinates();
+    let task = Task { keep: &options.keep, ..setting.task(&operator, data) };
+    let solved = solve(&task, &mut chosen, observer)?;
+    Ok((solved, chosen.name, chosen.smallest_eigenvalue))
+}
+
+/// Runs the columns to their limit, then the rows: the same limit in far fewer steps, since no step
+/// has to serve both directions.
+fn per_direction(setting: &Setting<'_>, observer: &mut dyn Observer) -> Result<Ended, Error> {
+    let (options, directions) = (setting.options, setting.directions);
+    if !options.keep.is_empty() {
+        return Err(Error::Incompatible {
+            what: "keeping fits of the way",
+            with: "one direction after the other",
+            why: "half way through, the net is no fit of the grid; run both directions at once",
+        });
+    }
+    if matches!(options.weight, IterationWeight::PerPoint(_)) {
+        return Err(Error::Incompatible {
+            what: "a weight per point",
+            with: "one direction after the other",
+            why: "a point has no weight of its own in a direction; run both directions at once",
+        });
+    }
+    let dimension = setting.view.dimension();
+    let data = setting.view.points().coordinates();
+    let both = TensorCollocation::new(directions.u, directions.v, dimension);
+    // What is left of the first run adds to what is left of the second.
+    let mut stopping = setting.stopping;
+    stopping.residual *= 0.5;
+    let across = AcrossCollocation::new(directions.u, directions.v.points());
+    let along = AlongCollocation::new(directions.v, directions.u.points());
+    let mut work = vec![0.0; data.len()];
+    let before = both.difference_vectors(data, data, dimension, &mut work);
+
+    let (method, weight) = (options.method, &options.weight);
+    let mut in_u = choose_across(method, weight, directions, dimension)?;
+    let task = Task { stopping, ..setting.task(&across, data) };
+    let first = solve(&task, &mut in_u, observer)?;
+    let mut in_v = choose_along(method, weight, directions, dimension)?;
+    let task = Task { stopping, ..setting.task(&along, &first.control) };
+    let second = solve(&task, &mut in_v, observer)?;
+
+    let norms = both.difference_vectors(data, &second.control, dimension, &mut work);
+    let iterations = first.iterations + second.iterations;
+    let termination = overall([first.termination, second.termination], norms.max, setting.stopping);
+    let undo = |x: f64| setting.size.scale.undo(x);
+    let entry = |iteration, norms: crate::collocation::ResidualNorms| HistoryEntry {
+        iteration,
+        max_residual: undo(norms.max),
+        rms_residual: undo(norms.rms),
+    };
+    let mut choices = vec![format!(
+        "directions: one after the other, {} steps in u, {} in v",
+        first.iterations, second.iterations
+    )];
+    let named = |name: &'static str, list: Vec<String>| {
+        list.into_iter().map(move |choice| format!("{choice} (in {name})"))
+    };
+    choices.extend(named("u", first.choices));
+    choices.extend(named("v", second.choices));
+    let ChosenRule { name, smallest_eigenvalue, .. } = in_u;
+    let product = smallest_eigenvalue.zip(in_v.smallest_eigenvalue).map(|(u, v)| u * v);
+    let solved = Solved {
+        control: second.control,
+        vectors: work,
+        norms,
+        termination,
+        iterations,
+        iteration_returned: first.iteration_returned + second.iteration_returned,
+        history: vec![entry(0, before), entry(iterations, norms)],
+        choices,
+        sequence: Vec::new(),
+    };
+    Ok((solved, name, product))
+}
+
+/// How two runs ended, seen as one.
+fn overall(each: [Termination; 2], residual: f64, stopping: Stopping) -> Termination {
+    if stopping.residual > 0.0 && residual <= stopping.residual {
+        return Termination::Residual;
+    }
+    let worse = [
+        Termination::Diverged,
+        Termination::Cancelled,
+        Termination::Stalled,
+        Termination::Iterations,
+    ];
+    worse.into_iter().find(|reason| each.contains(reason)).unwrap_or(Termination::Residual)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_worse_ending_counts() {
+        let stopping = Stopping { residual: 1e-9, max_iterations: 9, accept_rounding: 0.0 };
+        let both = [Termination::Residual, Termination::Iterations];
+        assert_eq!(overall(both, 1.0, stopping), Termination::Iterations);
+        assert_eq!(overall(both, 1e-10, stopping), Termination::Residual);
+    }
+}

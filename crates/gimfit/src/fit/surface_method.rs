@@ -1,0 +1,133 @@
+//! From a named method to a rule on a grid of points.
+
+use super::method::{ChosenRule, choose};
+use super::{IterationWeight, Method};
+use crate::Error;
+use crate::collocation::{
+    BandFactors, BandedCollocation, CollocationOperator, smallest_eigenvalue,
+};
+use crate::iteration::UpdateRule;
+use crate::iteration::update::{
+    Across, Along, Both, Chebyshev, GaussSeidel, Jacobi, PerPoint, Pia, Preconditioned, Staged,
+    Weighted,
+};
+
+/// The operators of both directions.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Directions<'a> {
+    pub(super) u: &'a BandedCollocation,
+    pub(super) v: &'a BandedCollocation,
+}
+
+impl Directions<'_> {
+    fn points(&self) -> usize {
+        self.u.points() * self.v.points()
+    }
+}
+
+/// Prepares a rule that moves the whole net at once.
+pub(super) fn choose_both<'a>(
+    method: Method,
+    weight: &IterationWeight,
+    directions: Directions<'a>,
+    dimension: usize,
+    gradual: usize,
+) -> Result<ChosenRule<'a>, Error> {
+    super::method::check_weight(method, weight, directions.points())?;
+    let Directions { u, v } = directions;
+    let columns = v.points();
+    let mut choices = Vec::new();
+    let mut eigenvalue = None;
+    let mut smallest = || -> Result<f64, Error> {
+        let bounds = [u, v].map(|a| BandFactors::new(a).map(|f| smallest_eigenvalue(&f)));
+        let [u, v] = bounds;
+        let (u, v) = (u?, v?);
+        let tight = u.estimate <= 1.5 * u.lower && v.estimate <= 1.5 * v.lower;
+        eigenvalue = tight.then_some(u.estimate * v.estimate);
+        // Eigenvalues of a Kronecker product are products.
+        Ok(u.lower.max(0.5 * u.estimate) * v.lower.max(0.5 * v.estimate))
+    };
+    let banded = |q: Option<usize>| -> Result<_, Error> {
+        Ok(Both::new(Preconditioned::new(u, q)?, Preconditioned::new(v, q)?, columns))
+    };
+    let (name, rule): (_, Box<dyn UpdateRule + 'a>) = match method {
+        Method::Auto if gradual > 0 => {
+            choices.push(format!(
+                "method: plain PIA for {gradual} steps, because fits of the way are kept, then \
+                 preconditioned PIA in both directions"
+            ));
+            ("auto", Box::new(Staged::new(Pia, gradual, banded(None)?)))
+        }
+        Method::Auto => {
+            choices.push(
+                "method: preconditioned PIA with the whole band in both directions, which reaches \
+                 rounding level in a few steps on any spacing"
+                    .into(),
+            );
+            ("preconditioned", Box::new(banded(None)?))
+        }
+        Method::Pia => ("pia", Box::new(Pia)),
+        Method::Weighted => match weight {
+            IterationWeight::PerPoint(omega) => {
+                ("weighted", Box::new(PerPoint::new(omega.clone())))
+            }
+            IterationWeight::Same(omega) => ("weighted", Box::new(Weighted::new(*omega))),
+            IterationWeight::Auto => {
+                let omega = Weighted::best_for(smallest()?);
+                choices.push(format!("weight: {omega:.6}, best for the smallest eigenvalue"));
+                ("weighted", Box::new(Weighted::new(omega)))
+            }
+        },
+        Method::Jacobi => ("jacobi", Box::new(Both::new(Jacobi::new(u), Jacobi::new(v), columns))),
+        Method::GaussSeidel => {
+            ("gauss-seidel", Box::new(Both::new(GaussSeidel::new(u), GaussSeidel::new(v), columns)))
+        }
+        Method::Sor => {
+            return Err(Error::Incompatible {
+                what: "sor",
+                with: "a whole net at once",
+                why: "over-relaxation is known for one direction only; run per direction, or use \
+                      gauss-seidel",
+            });
+        }
+        Method::Chebyshev => {
+            let least = smallest()?;
+            choices.push(format!("interval of eigenvalues: [{least:.4e}, 1]"));
+            ("chebyshev", Box::new(Chebyshev::new(least, 1.0, directions.points() * dimension)))
+        }
+        Method::Preconditioned { half_bandwidth } => {
+            ("preconditioned", Box::new(banded(half_bandwidth)?))
+        }
+    };
+    Ok(ChosenRule { rule, name, choices, smallest_eigenvalue: eigenvalue })
+}
+
+/// Prepares a rule that takes each column of the grid for a curve.
+pub(super) fn choose_across<'a>(
+    method: Method,
+    weight: &IterationWeight,
+    directions: Directions<'a>,
+    dimension: usize,
+) -> Result<ChosenRule<'a>, Error> {
+    let columns = directions.v.points();
+    let mut chosen = choose(method, weight, directions.u, columns * dimension, 0)?;
+    chosen.rule = Box::new(Across::new(chosen.rule, columns));
+    Ok(chosen)
+}
+
+/// Prepares a rule that takes each row of the grid for a curve.
+pub(super) fn choose_along<'a>(
+    method: Method,
+    weight: &IterationWeight,
+    directions: Directions<'a>,
+    dimension: usize,
+) -> Result<ChosenRule<'a>, Error> {
+    let rows = directions.u.points();
+    let mut chosen = choose(method, weight, directions.v, rows * dimension, 0)?;
+    // A rule that scales and adds whole arrays serves all rows at once, and may remember them.
+    let whole = matches!(method, Method::Pia | Method::Weighted | Method::Chebyshev);
+    if !whole {
+        chosen.rule = Box::new(Along::new(chosen.rule, directions.v.points()));
+    }
+    Ok(chosen)
+}
