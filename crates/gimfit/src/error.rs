@@ -158,13 +158,13 @@ pub enum Error {
         /// Its parameter.
         parameter: f64,
     },
-    /// A collocation matrix that is singular although every diagonal entry is positive.
-    #[error("the collocation matrix of {points} points is singular: {why}")]
+    /// A collocation matrix that is singular in doubles although every diagonal entry is positive.
+    #[error(
+        "no curve of this degree over these knots passes through the {points} points: their collocation matrix is singular in doubles; change the degree or the knots (knots at the data suit closed curves of odd degree), or use uniform or centripetal parameters"
+    )]
     Singular {
         /// Number of points.
         points: usize,
-        /// The cause, as far as it is known, and the remedy.
-        why: &'static str,
     },
     /// Numbers on the way to the curve left the range of doubles.
     #[error(

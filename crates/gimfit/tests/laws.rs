@@ -6,8 +6,8 @@ use gimfit::collocation::{BandFactors, interpolation, smallest_eigenvalue};
 use gimfit::knots::place_knots;
 use gimfit::parameters::{Parameters, assign_parameters};
 use gimfit::{
-    CurveFit, CurveOptions, IterationWeight, KnotPlacement, Method, Parameterization, Points,
-    Termination, fit_curve,
+    CurveFit, CurveOptions, Duplicates, Error, IterationWeight, KnotPlacement, Method,
+    Parameterization, Points, Termination, fit_curve,
 };
 use gimfit_testkit::dense::{self, Rows};
 use gimfit_testkit::generate::{Random, graded, random_walk};
@@ -474,5 +474,52 @@ fn the_chord_ratio_scheme_is_the_uniform_one_for_equal_steps() {
             let found: f64 = operator.row(j).filter(|e| e.0 == column).map(|e| e.1).sum();
             assert!((found - expected).abs() < 1e-13, "{j} {column}: {found} {expected}");
         }
+    }
+}
+
+#[test]
+fn closed_curves_of_uneven_spacing_are_as_well_met_as_open_ones() {
+    // Cutting such a closed curve open leaves a matrix of condition 1e18 or worse, though that of
+    // the whole is some thousand: elimination must exchange rows.
+    for (growth, count) in [(1.02, 154), (1.1, 30), (1.2, 40)] {
+        let mut x: f64 = 0.0;
+        let data: Rows = (0..count)
+            .map(|i| {
+                let point = vec![x, x.ln_1p()];
+                x += f64::powi(growth, i);
+                point
+            })
+            .collect();
+        for degree in [2, 3, 4, 5, 9] {
+            let options = CurveOptions { degree, closed: true, ..Default::default() };
+            let found = fit(&data, &options);
+            let wild = found.report.choices.iter().any(|choice| choice.starts_with("caution"));
+            assert!(found.report.converged() || wild, "{growth} {degree}: {:?}", found.report);
+            assert!(!wild || degree >= 5, "{growth} {degree}");
+            let scale = rows(found.curve.control_points())
+                .concat()
+                .iter()
+                .fold(found.report.extent, |m, x| m.max(x.abs()));
+            assert!(textbook_residual(&data, &found) <= 1e-13 * scale, "{growth} {degree}");
+        }
+    }
+}
+
+#[test]
+fn a_repeated_closing_point_follows_the_policy_on_duplicates() {
+    let data: Rows = [[1.0, 2.0], [4.0, 1.0], [0.0, 0.0], [7.0, 7.0], [1.0, 2.0], [1.0, 2.0]]
+        .map(|point| point.to_vec())
+        .to_vec();
+    let run = |duplicates| {
+        let options = CurveOptions { closed: true, duplicates, ..Default::default() };
+        fit_curve(&points(&data), &options)
+    };
+    assert_eq!(
+        run(Duplicates::Error).unwrap_err(),
+        Error::RepeatedPoints { first: 4, second: 5, others: 0 }
+    );
+    for policy in [Duplicates::Drop, Duplicates::Merge] {
+        let fit = run(policy).unwrap();
+        assert!(fit.report.converged() && fit.report.points == 4);
     }
 }

@@ -2,8 +2,10 @@
 
 mod band_kernel;
 mod banded;
+mod bordered;
 mod build;
 mod factor;
+mod folded;
 mod grid;
 pub(crate) mod kernel;
 mod layout;

@@ -61,9 +61,18 @@ pub(super) fn prepare<'a>(
     if diagonal == 0.0 && points.len() > 1 && parameterization.needs_distinct_points() {
         return Err(Error::AllPointsEqual { points: points.len() });
     }
-    let points = open_up(points, diagonal, options, &parameterization, &mut choices)?;
-    let cleaned = clean_points(points, options, &mut parameterization, &mut choices)?;
     let dimension = points.dimension();
+    let cleaned = if matches!(parameterization, Parameterization::Given(_)) {
+        let points = open_up(points, diagonal, options, &parameterization, &mut choices)?;
+        clean_points(points, options, &mut parameterization, &mut choices)?
+    } else {
+        // The closing point itself may be repeated.
+        let mut cleaned = clean_points(points, options, &mut parameterization, &mut choices)?;
+        let view = PointsView::new(dimension, &cleaned.coordinates)?;
+        let left = open_up(view, diagonal, options, &parameterization, &mut choices)?.len();
+        cleaned.truncate(left, dimension);
+        cleaned
+    };
     let left = cleaned.coordinates.len() / dimension;
     if left < needed {
         return Err(Error::TooFewPoints { points: left, degree: options.degree, needed });

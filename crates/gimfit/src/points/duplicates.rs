@@ -26,6 +26,19 @@ pub(crate) struct Cleaned<'a> {
     pub(crate) kept: Option<Vec<usize>>,
 }
 
+impl Cleaned<'_> {
+    /// Keeps the first `count` points.
+    pub(crate) fn truncate(&mut self, count: usize, dimension: usize) {
+        match &mut self.coordinates {
+            Cow::Borrowed(all) => *all = &all[..count * dimension],
+            Cow::Owned(all) => all.truncate(count * dimension),
+        }
+        if let Some(kept) = &mut self.kept {
+            kept.truncate(count);
+        }
+    }
+}
+
 /// Applies the policy to runs of neighbours for which `same(j)` holds between `j - 1` and `j`.
 pub(crate) fn clean<'a>(
     points: PointsView<'a>,
