@@ -6,10 +6,16 @@
 mod model;
 mod read;
 mod rows;
+mod surface;
 
 pub use model::{CurveGeometry, Document, Geometry, HistoryRow, ReportData, Seconds, SequenceFit};
-pub use read::{DocumentError, is_document, parse_document, read_document};
+pub use read::{
+    AnyDocument, DocumentError, is_document, parse_any_document, parse_document, read_document,
+};
 pub use rows::PointRows;
+pub use surface::{
+    NetFit, SurfaceDocument, SurfaceGeometry, SurfaceKind, SurfaceReportData, surface_document_of,
+};
 
 /// The document of a fit, without the times, which the library does not know.
 #[must_use]

@@ -164,6 +164,18 @@ pub struct HistoryRow {
     pub rms_residual: f64,
 }
 
+impl HistoryRow {
+    /// Takes an entry over.
+    #[must_use]
+    pub fn of(entry: &gimfit::HistoryEntry) -> Self {
+        Self {
+            iteration: entry.iteration,
+            max_residual: entry.max_residual,
+            rms_residual: entry.rms_residual,
+        }
+    }
+}
+
 /// Measured times.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Seconds {
@@ -259,15 +271,7 @@ impl ReportData {
             spacing_ratio: report.spacing_ratio,
             smallest_eigenvalue: report.smallest_eigenvalue,
             seconds: None,
-            history: report
-                .history
-                .iter()
-                .map(|entry| HistoryRow {
-                    iteration: entry.iteration,
-                    max_residual: entry.max_residual,
-                    rms_residual: entry.rms_residual,
-                })
-                .collect(),
+            history: report.history.iter().map(HistoryRow::of).collect(),
         }
     }
 }

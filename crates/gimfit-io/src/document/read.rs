@@ -1,6 +1,6 @@
 //! Reading a document back, checked.
 
-use super::{Document, Geometry};
+use super::{Document, Geometry, SurfaceDocument, SurfaceKind};
 use std::path::Path;
 
 /// A document that cannot be read.
@@ -66,24 +66,7 @@ pub fn read_document(path: &Path) -> Result<Document, DocumentError> {
 /// # Errors
 /// [`DocumentError`].
 pub fn parse_document(bytes: &[u8], name: &str) -> Result<Document, DocumentError> {
-    let malformed = |error: &serde_json::Error| DocumentError::Malformed {
-        name: name.into(),
-        line: error.line(),
-        column: error.column(),
-        problem: without_place(&error.to_string()),
-    };
-    let document: Document = match serde_json::from_slice(bytes) {
-        Ok(document) => document,
-        Err(error) => {
-            return Err(match foreign(bytes) {
-                Some(problem) => DocumentError::Foreign { name: name.into(), problem },
-                None => malformed(&error),
-            });
-        }
-    };
-    if let Some(problem) = foreign(bytes) {
-        return Err(DocumentError::Foreign { name: name.into(), problem });
-    }
+    let document: Document = parse(bytes, name)?;
     if let Some(Geometry::Curve(curve)) = &document.geometry {
         let geometry = |reason| DocumentError::Geometry { name: name.into(), reason };
         curve.curve().map_err(geometry)?;
@@ -92,6 +75,69 @@ pub fn parse_document(bytes: &[u8], name: &str) -> Result<Document, DocumentErro
         }
     }
     Ok(document)
+}
+
+/// A document of either kind.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum AnyDocument {
+    /// Of a curve, or without a geometry and of a curve's report.
+    Curve(Box<Document>),
+    /// Of a surface.
+    Surface(Box<SurfaceDocument>),
+}
+
+/// Reads a document of whatever kind it is, and checks that its geometry can be evaluated.
+///
+/// # Errors
+/// [`DocumentError`].
+pub fn parse_any_document(bytes: &[u8], name: &str) -> Result<AnyDocument, DocumentError> {
+    if !is_surface(bytes) {
+        return Ok(AnyDocument::Curve(Box::new(parse_document(bytes, name)?)));
+    }
+    let document: SurfaceDocument = parse(bytes, name)?;
+    if let Some(SurfaceKind::Surface(surface)) = &document.geometry {
+        let geometry = |reason| DocumentError::Geometry { name: name.into(), reason };
+        surface.surface().map_err(geometry)?;
+        for fit in document.sequence.iter().flatten() {
+            surface.surface_with(&fit.control_points).map_err(geometry)?;
+        }
+    }
+    Ok(AnyDocument::Surface(Box::new(document)))
+}
+
+/// Whether a document says that it holds a surface, or a report of one.
+fn is_surface(bytes: &[u8]) -> bool {
+    #[derive(serde::Deserialize)]
+    struct Probe {
+        geometry: Option<Kind>,
+        report: Option<Report>,
+    }
+    #[derive(serde::Deserialize)]
+    struct Kind {
+        r#type: String,
+    }
+    #[derive(serde::Deserialize)]
+    struct Report {
+        degrees: Option<serde::de::IgnoredAny>,
+    }
+    serde_json::from_slice::<Probe>(bytes).is_ok_and(|probe| match (probe.geometry, probe.report) {
+        (Some(kind), _) => kind.r#type == "surface",
+        (None, report) => report.is_some_and(|report| report.degrees.is_some()),
+    })
+}
+
+fn parse<T: serde::de::DeserializeOwned>(bytes: &[u8], name: &str) -> Result<T, DocumentError> {
+    let parsed = serde_json::from_slice(bytes);
+    if let Some(problem) = foreign(bytes) {
+        return Err(DocumentError::Foreign { name: name.into(), problem });
+    }
+    parsed.map_err(|error| DocumentError::Malformed {
+        name: name.into(),
+        line: error.line(),
+        column: error.column(),
+        problem: without_place(&error.to_string()),
+    })
 }
 
 /// What JSON that is not ours says of itself.

@@ -1,0 +1,253 @@
+//! Surfaces in documents.
+
+use super::{HistoryRow, PointRows};
+use gimfit::{Error, KeptFit, KnotVector, PointGrid, Surface, SurfaceFit, SurfaceReport};
+use serde::{Deserialize, Serialize};
+
+/// The document of a surface; parts that were not asked for are left out.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SurfaceDocument {
+    /// Always `gimfit`.
+    pub format: String,
+    /// Always 1.
+    pub version: u32,
+    /// The surface.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub geometry: Option<SurfaceKind>,
+    /// Parameters of the rows and of the columns of points fitted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub parameters: Option<[Vec<f64>; 2]>,
+    /// Names of the coordinates, where the input had them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coordinate_names: Option<Vec<String>>,
+    /// The account of the fit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub report: Option<SurfaceReportData>,
+    /// Fits kept on the way.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sequence: Option<Vec<NetFit>>,
+}
+
+/// The geometry of a surface document, with its type.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "type", rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum SurfaceKind {
+    /// A tensor-product B-spline surface.
+    Surface(SurfaceGeometry),
+}
+
+/// A fit of an earlier iteration, over the knots of the geometry.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct NetFit {
+    /// Residuals reached after how many steps.
+    #[serde(flatten)]
+    pub entry: HistoryRow,
+    /// Its control net.
+    pub control_points: Vec<PointRows>,
+}
+
+impl NetFit {
+    fn of(kept: &KeptFit, columns: usize) -> Self {
+        let points = &kept.control_points;
+        Self {
+            entry: HistoryRow::of(&kept.entry),
+            control_points: rows(points.coordinates(), columns, points.dimension()),
+        }
+    }
+}
+
+/// The document of a surface fit, without the times, which the library does not know.
+#[must_use]
+pub fn surface_document_of(fit: &SurfaceFit) -> SurfaceDocument {
+    let columns = fit.surface.control_net().shape()[1];
+    SurfaceDocument {
+        format: "gimfit".into(),
+        version: 1,
+        geometry: Some(SurfaceKind::Surface(SurfaceGeometry::of(&fit.surface))),
+        parameters: Some(fit.parameters.clone()),
+        coordinate_names: None,
+        report: Some(SurfaceReportData::of(&fit.report)),
+        sequence: (!fit.sequence.is_empty())
+            .then(|| fit.sequence.iter().map(|kept| NetFit::of(kept, columns)).collect()),
+    }
+}
+
+/// A tensor-product B-spline surface as any evaluator takes it. Pairs hold direction u, then v.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SurfaceGeometry {
+    /// Degrees p and q.
+    pub degrees: [usize; 2],
+    /// Coordinates per point.
+    pub dimension: usize,
+    /// Whether the surface closes smoothly; its last p rows, its last q columns of control points
+    /// then repeat the first.
+    pub periodic: [bool; 2],
+    /// n_u + p + 1 knots, and n_v + q + 1.
+    pub knots: [Vec<f64>; 2],
+    /// n_u rows of n_v control points.
+    pub control_points: Vec<PointRows>,
+    /// Weights of a rational surface; null for polynomial ones.
+    pub weights: Option<Vec<Vec<f64>>>,
+}
+
+impl SurfaceGeometry {
+    /// Takes a surface apart.
+    #[must_use]
+    pub fn of(surface: &Surface) -> Self {
+        let net = surface.control_net();
+        let dimension = surface.dimension();
+        Self {
+            degrees: surface.degrees(),
+            dimension,
+            periodic: surface.is_periodic(),
+            knots: surface.knots().each_ref().map(|knots| knots.values().to_vec()),
+            control_points: rows(net.points().coordinates(), net.shape()[1], dimension),
+            weights: None,
+        }
+    }
+
+    /// Puts the surface together, checked.
+    ///
+    /// # Errors
+    /// What the knots or control points lack.
+    pub fn surface(&self) -> Result<Surface, Error> {
+        self.surface_with(&self.control_points)
+    }
+
+    /// The surface with another control net: one of a sequence.
+    ///
+    /// # Errors
+    /// As [`SurfaceGeometry::surface`].
+    pub fn surface_with(&self, control_points: &[PointRows]) -> Result<Surface, Error> {
+        if self.weights.is_some() {
+            return Err(Error::Incompatible {
+                what: "weights",
+                with: "this version of gimfit",
+                why: "rational surfaces cannot be evaluated yet",
+            });
+        }
+        let columns = control_points.first().map_or(0, |row| row.values.len());
+        for row in control_points {
+            if row.dimension != self.dimension || row.values.len() != columns {
+                return Err(Error::WrongCount {
+                    what: "numbers in a row of control points",
+                    given: row.values.len(),
+                    expected: columns,
+                    why: "every row holds as many points, of the dimension stated",
+                });
+            }
+        }
+        let knots = |k: usize| {
+            let values = self.knots[k].clone();
+            if self.periodic[k] {
+                KnotVector::periodic(self.degrees[k], values)
+            } else {
+                KnotVector::open(self.degrees[k], values)
+            }
+        };
+        let shape = [control_points.len(), columns / self.dimension.max(1)];
+        let flat = control_points.iter().flat_map(|row| &row.values).copied().collect();
+        Surface::new([knots(0)?, knots(1)?], PointGrid::new(shape, self.dimension, flat)?)
+    }
+}
+
+/// A flat net as rows of points.
+pub(super) fn rows(coordinates: &[f64], columns: usize, dimension: usize) -> Vec<PointRows> {
+    coordinates
+        .chunks_exact((columns * dimension).max(1))
+        .map(|row| PointRows { dimension, values: row.to_vec() })
+        .collect()
+}
+
+/// The account of a surface fit. Pairs hold direction u (rows), then v (columns); lengths are in
+/// the unit of the data; indices count the points fitted, from 0.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SurfaceReportData {
+    /// File or stream the points came from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub source: Option<String>,
+    /// Rows and columns of points fitted.
+    pub points: [usize; 2],
+    /// Rows and columns of control points stored.
+    pub control_points: [usize; 2],
+    /// Degrees.
+    pub degrees: [usize; 2],
+    /// Coordinates per point.
+    pub dimension: usize,
+    /// Whether the surface closes.
+    pub closed: [bool; 2],
+    /// How parameters were assigned.
+    pub parameterizations: [String; 2],
+    /// How knots were placed.
+    pub knot_placements: [String; 2],
+    /// The rule that ran.
+    pub method: String,
+    /// Whether it ran in one direction after the other.
+    pub per_direction: bool,
+    /// Sentences on what was chosen, and why.
+    pub choices: Vec<String>,
+    /// Steps run.
+    pub iterations: usize,
+    /// Steps behind the fit returned.
+    pub iteration_returned: usize,
+    /// `residual`, `iterations`, `stalled`, `diverged` or `cancelled`.
+    pub termination: String,
+    /// The residual aimed at.
+    pub residual_target: f64,
+    /// Diagonal of the data's bounding box.
+    pub extent: f64,
+    /// Largest norm of a difference vector.
+    pub max_residual: f64,
+    /// Row and column where it is met.
+    pub max_residual_index: [usize; 2],
+    /// Root mean square of the norms.
+    pub rms_residual: f64,
+    /// Largest distance of a data point from its foot point.
+    pub max_deviation: f64,
+    /// Row and column where it is met.
+    pub max_deviation_index: [usize; 2],
+    /// Longest step of the parameters over the shortest.
+    pub spacing_ratios: [f64; 2],
+    /// Smallest eigenvalue of the collocation operator, where it was needed.
+    pub smallest_eigenvalue: Option<f64>,
+    /// Measured times.
+    #[serde(default)]
+    pub seconds: Option<super::Seconds>,
+    /// Residuals step by step.
+    pub history: Vec<HistoryRow>,
+}
+
+impl SurfaceReportData {
+    /// Takes a report over.
+    #[must_use]
+    pub fn of(report: &SurfaceReport) -> Self {
+        Self {
+            source: None,
+            points: report.points,
+            control_points: report.control_points,
+            degrees: report.degrees,
+            dimension: report.dimension,
+            closed: report.closed,
+            parameterizations: report.parameterizations.map(Into::into),
+            knot_placements: report.knot_placements.map(Into::into),
+            method: report.method.into(),
+            per_direction: report.per_direction,
+            choices: report.choices.clone(),
+            iterations: report.iterations,
+            iteration_returned: report.iteration_returned,
+            termination: report.termination.as_str().into(),
+            residual_target: report.residual_target,
+            extent: report.extent,
+            max_residual: report.max_residual,
+            max_residual_index: report.max_residual_index,
+            rms_residual: report.rms_residual,
+            max_deviation: report.max_deviation,
+            max_deviation_index: report.max_deviation_index,
+            spacing_ratios: report.spacing_ratios,
+            smallest_eigenvalue: report.smallest_eigenvalue,
+            seconds: None,
+            history: report.history.iter().map(HistoryRow::of).collect(),
+        }
+    }
+}
