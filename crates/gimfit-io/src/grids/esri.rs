@@ -11,6 +11,7 @@ use std::ops::ControlFlow;
 use super::esri_header::{self, Header};
 use super::grid::{GridFormat, GridLines, PointGrid};
 use super::heights::{CellPlace, Heights, Tally, cell_problem};
+use super::lattice::shown;
 use super::options::GridOptions;
 use crate::points::error::counted;
 use crate::points::rows::Rows;
@@ -57,7 +58,7 @@ pub(super) fn read(
             .to_owned(),
     );
     if let Some(value) = header.no_data {
-        notes.push(format!("No cell holds {value:?}, which stands for no data."));
+        notes.push(format!("No cell holds {}, which stands for no data.", shown(value)));
     }
     if !body.rows_whole {
         notes.push("Lines of the file are not rows of the grid; ncols parts the rows.".to_owned());

@@ -106,8 +106,8 @@ fn find(
         None if named => Ok(Form::Lines),
         None if width <= MOST_COORDINATES && count > width => {
             let problem = Problem::Malformed(format!(
-                "{} of {} can be points or rows of heights; give the shape of the grid: of points \
-                 in as many lines as --shape 13x100 has, or of heights with --shape {count}x{width}",
+                "{} of {} can be points or rows of heights; give the shape of the grid: of \
+                 points row by row, such as --shape 20x30, or of heights, --shape {count}x{width}",
                 counted(count, "line"),
                 counted(width, "number"),
             ));

@@ -117,7 +117,7 @@ impl Tally {
 pub(super) fn holes(holes: usize, cells: usize, first: &str) -> String {
     let verb = if holes == 1 { "holds" } else { "hold" };
     format!(
-        "{holes} of {cells} cells {verb} no data, first {first}; holes cannot be fitted yet: fill \
+        "{holes} of {cells} cells {verb} no data, the first of them {first}; holes cannot be fitted yet: fill \
          them in or cut out a part without them"
     )
 }
@@ -177,7 +177,8 @@ mod tests {
         let error = tally.refuse_holes(10, "f").unwrap_err().to_string();
         assert!(
             error.starts_with(
-                "f, line 3, column 2: 6 of 10 cells hold no data, first row 3, column 2 of the grid;"
+                "f, line 3, column 2: 6 of 10 cells hold no data, the first of them row 3, column 2 \
+                 of the grid;"
             ),
             "{error}"
         );

@@ -171,7 +171,7 @@ pub(super) fn place(
 }
 
 /// A number for a message, with an exponent where it would grow long.
-fn shown(value: f64) -> String {
+pub(super) fn shown(value: f64) -> String {
     let text = format!("{value:?}");
     text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
 }

@@ -77,6 +77,7 @@ pub(super) fn read(
         return Err(without_shape(points, &layout, source));
     }
     let selection = select(offer(&layout, pair), &options.for_points(), source, &mut notes)?;
+    note_left_out(&layout, &selection, pair, &mut notes);
     let (wanted, slots) = with_pair(&selection, pair);
     let asked = ReadOptions {
         columns: Some(wanted.iter().map(|at| ColumnChoice::Number(at + 1)).collect()),
@@ -111,8 +112,8 @@ fn without_shape(points: usize, layout: &Layout, source: &str) -> ReadError {
         source,
         Problem::Malformed(format!(
             "nothing says in which row and column each of the {} belongs (the columns are {}); \
-             give the shape, such as --shape 13x100, if they stand row by row, or name two columns \
-             of indices row,column or of parameters u,v in the header",
+             give the shape, such as --shape 20x30, if they stand row by row, or the two columns that \
+             say it, with --index-columns or by the names row,column or u,v in the header",
             counted(points, "point"),
             list(&layout.names)
         )),
@@ -129,13 +130,32 @@ fn offer(layout: &Layout, pair: Option<Pair>) -> Offer<'_> {
         found.next().filter(|_| found.next().is_none())
     };
     let named = layout.header.is_some();
-    let (usual, why) = match (one("x"), one("y")) {
-        (Some(x), Some(y)) if named => {
-            ([x, y].into_iter().chain(one("z")).collect(), "because the header names them so")
-        }
-        _ => ((0..names.len()).filter(free).collect(), "all columns but the two of the grid"),
+    let usual = match (one("x"), one("y")) {
+        (Some(x), Some(y)) if named => [x, y].into_iter().chain(one("z")).collect(),
+        _ => (0..names.len()).filter(free).collect(),
     };
-    Offer { names, named, usual, why }
+    Offer { names, named, usual, why: "" }
+}
+
+/// Notes the columns that a file has for neither the grid nor its points.
+fn note_left_out(
+    layout: &Layout,
+    selection: &Selection,
+    pair: Option<Pair>,
+    notes: &mut Vec<String>,
+) {
+    let mut used = vec![false; layout.names.len()];
+    let of_pair = pair.iter().flat_map(|pair| [pair.row, pair.column]);
+    selection.coordinates.iter().copied().chain(of_pair).for_each(|at| used[at] = true);
+    let left_out = layout.names.iter().zip(used).filter(|(_, used)| !used);
+    let names: Vec<&str> = left_out.map(|(name, _)| name.as_str()).collect();
+    if !names.is_empty() {
+        notes.push(format!(
+            "The coordinates are {}; left out: {}.",
+            list(&selection.coordinate_names(&layout.names)),
+            list(&names)
+        ));
+    }
 }
 
 /// Where the numbers stand in a row read for a grid.

@@ -73,7 +73,7 @@ impl FromStr for GridFormatChoice {
     }
 }
 
-/// Reads a shape such as `13x100`: the number of rows, then of points in each.
+/// Reads a shape such as `20x30`: the number of rows, then of points in each.
 pub fn parse_shape(given: &str) -> Result<(usize, usize), UnknownChoice> {
     let count = |text: &str| text.trim().parse().ok().filter(|count| *count > 0);
     given
@@ -81,7 +81,7 @@ pub fn parse_shape(given: &str) -> Result<(usize, usize), UnknownChoice> {
         .and_then(|(rows, columns)| Some((count(rows)?, count(columns)?)))
         .ok_or(UnknownChoice {
             given: given.to_owned(),
-            wanted: "a shape; give the number of rows and of columns, as in 13x100",
+            wanted: "a shape; give the number of rows and of columns, as in 20x30",
         })
 }
 

@@ -36,7 +36,7 @@ fn cells_without_data_are_counted_and_the_first_is_named() {
     let error = read(&format!("{HEAD}NODATA_value -9999\n1 2 3\n4 -9999.0 nan\n")).unwrap_err();
     assert!(
         error.starts_with(
-            "f.asc, line 8, column 2: 2 of 6 cells hold no data, first row 2, column 2 of the grid"
+            "f.asc, line 8, column 2: 2 of 6 cells hold no data, the first of them row 2"
         ),
         "{error}"
     );

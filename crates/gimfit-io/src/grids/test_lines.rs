@@ -128,6 +128,8 @@ fn columns_and_indices_follow_the_choice() {
     assert!(grid.row_abscissae.is_none());
     let asked = GridOptions { columns: None, ..asked };
     assert_eq!(read_with(text, &asked).unwrap().column_names, ["p", "q"]);
+    let grid = read("i,x,j,label,y\n0,1,0,a,2\n").unwrap();
+    assert_eq!(grid.notes[0], "The coordinates are x, y; left out: label.");
     let real = read_with("s,j,p\n0.5,1,5\n0.5,2,7\n", &asked).unwrap();
     assert_eq!(real.row_abscissae, Some(vec![0.5]));
     let lines = GridOptions { format: Some(GridFormatChoice::Lines), ..shaped(1, 2) };

@@ -71,8 +71,8 @@ fn holes_are_counted_and_the_first_is_named() {
     let error = read(",0,1,2\n0,5,6,7\n1,5,,nan\n2,NA,6,-\n").unwrap_err();
     assert_eq!(
         error,
-        "f.csv, line 3, column 3: 4 of 9 cells hold no data, first row 2, column 2 of the grid; \
-         holes cannot be fitted yet: fill them in or cut out a part without them"
+        "f.csv, line 3, column 3: 4 of 9 cells hold no data, the first of them row 2, column 2 of \
+         the grid; holes cannot be fitted yet: fill them in or cut out a part without them"
     );
     let error = read(",0,1\n,5,6\n1,5,6\n").unwrap_err();
     assert!(error.starts_with("f.csv"), "{error}");
