@@ -86,6 +86,7 @@ mod pages {
         Pia: "docs/methods/pia.md",
         Preconditioned: "docs/methods/preconditioned.md",
         Stopping: "docs/methods/stopping.md",
+        Surfaces: "docs/methods/surfaces.md",
         Weighted: "docs/methods/weighted.md",
     }
 }
