@@ -21,7 +21,12 @@ RULES = ROOT / "crates/gimfit/src/iteration/update"
 ARGUMENTS = ROOT / "crates/gimfit-cli/src/arguments.rs"
 
 # Files and methods whose page has another name.
-PAGE_OF = {"gauss_seidel": "gauss-seidel", "sor": "gauss-seidel", "staged": "auto"}
+PAGE_OF = {
+    "gauss_seidel": "gauss-seidel",
+    "sor": "gauss-seidel",
+    "staged": "auto",
+    "grid": "surfaces",
+}
 
 LINK = re.compile(r"!?\[(?:[^\[\]]|\[[^\]]*\])*\]\(\s*<?([^)\s>]+)>?(?:\s+\"[^\"]*\")?\s*\)")
 CITATION = re.compile(r"\[(@[^\[\]]+)\]")
