@@ -80,7 +80,7 @@ pub(super) fn draw(
     };
     let stage = Stage::new(area, scene);
     let names = [0, 1, 2].map(|k| figure.coordinate_name(k));
-    stage.draw_box(svg, &names, notes);
+    stage.draw_box(svg, &names, true, notes);
     let places = |rows: Rows<'_>| rows.iter().map(|p| stage.place(p)).collect::<Vec<_>>();
     let layers = Layers {
         data: places(figure.data()),
@@ -126,11 +126,21 @@ impl Stage {
         if self.view.sees_high_side(k) == near { self.sides[k].high } else { self.sides[k].low }
     }
 
-    /// Draws axes named `names` and the edges of the far sides.
-    pub(crate) fn draw_box(&self, svg: &mut Svg, names: &[String; 3], notes: &mut Notes) {
+    /// Draws axes named `names` and the edges of the far sides. Offsets of
+    /// labels are written `beside` the names, or else in the notes.
+    pub(crate) fn draw_box(
+        &self,
+        svg: &mut Svg,
+        names: &[String; 3],
+        beside: bool,
+        notes: &mut Notes,
+    ) {
         for k in 0..3 {
-            if self.draw_axis(svg, k, &names[k]) {
-                notes.offset_of_labels();
+            let common = self.draw_axis(svg, k, &names[k], beside);
+            match common {
+                Some(_) if beside => notes.offset_of_labels(),
+                Some(common) => notes.add(format!("labels of the {} axis {common}", names[k])),
+                None => {}
             }
         }
         // Edges of the three far sides, each once or twice.
@@ -167,8 +177,9 @@ impl Stage {
         }
     }
 
-    /// Draws grid, labels and name; tells whether the labels have an offset.
-    fn draw_axis(&self, svg: &mut Svg, k: usize, name: &str) -> bool {
+    /// Draws grid, labels and name; returns what all labels have in common if
+    /// that is an offset.
+    fn draw_axis(&self, svg: &mut Svg, k: usize, name: &str, beside: bool) -> Option<String> {
         let (next, last) = ((k + 1) % 3, (k + 2) % 3);
         let (near_next, near_last) = self.labelled_edge(k);
         let (from, to) = self.edge(k, near_next, near_last);
@@ -207,13 +218,13 @@ impl Stage {
         }
         let middle = (0.5 * (from.0 + to.0), 0.5 * (from.1 + to.1));
         let away = 17.0 + widest * outward.0.abs() + style::LABEL_SIZE * outward.1.abs();
-        let name = if ticks.common.is_empty() {
+        let name = if ticks.common.is_empty() || (ticks.has_offset && !beside) {
             name.to_owned()
         } else {
             format!("{name}  ({})", ticks.common)
         };
         label_beside(svg, middle, outward, away, style::LABEL_SIZE + 1.0, &name);
-        ticks.has_offset
+        ticks.has_offset.then_some(ticks.common)
     }
 
     /// The direction from the box to the outside, across the edge.

@@ -17,10 +17,10 @@ const QUADRANTS: [f64; 4] = [-90.0, 0.0, 180.0, 90.0];
 
 /// Heights of the viewer above the horizon, in degrees, and by how much a
 /// view from there must be better.
-const ELEVATIONS: [(f64, f64); 2] = [(FAMILIAR.1, 1.0), (45.0, 1.12)];
+const ELEVATIONS: [(f64, f64); 2] = [(FAMILIAR.1, 1.0), (45.0, 1.18)];
 
 /// A small gain is not worth leaving the more familiar view.
-const GAIN: f64 = 1.06;
+const GAIN: f64 = 1.1;
 
 /// Cells of the small pictures to each unit of the room, which reaches about
 /// from -1 to 1.
@@ -31,8 +31,7 @@ pub(super) const MOST_POINTS: usize = 900;
 
 /// The view of `room` that shows most of the surface through `mesh`.
 pub(super) fn choose(room: &Room, mesh: &Grid) -> View {
-    let mut map =
-        DepthMap::new(Rect { x: -1.5, y: -1.5, width: 3.0, height: 3.0 }, FINENESS);
+    let mut map = DepthMap::new(Rect { x: -1.5, y: -1.5, width: 3.0, height: 3.0 }, FINENESS);
     let familiar = room.view(FAMILIAR.0, FAMILIAR.1);
     let mut best = familiar;
     let mut most = GAIN * shown(&familiar, mesh, &mut map);

@@ -58,12 +58,8 @@ impl ErrorScale {
     fn marks(&self) -> (Vec<(f64, String)>, String) {
         match self {
             Self::Linear(scale) => {
-                let ticks = ticks::linear_ticks(
-                    scale.values(),
-                    scale.length(),
-                    Direction::Upward,
-                    false,
-                );
+                let ticks =
+                    ticks::linear_ticks(scale.values(), scale.length(), Direction::Upward, false);
                 let marks = ticks.marks.into_iter().map(|(v, label)| (scale.at(v), label));
                 (marks.collect(), ticks.common)
             }
@@ -101,9 +97,12 @@ pub(super) fn draw(svg: &mut Svg, bar: Rect, scale: &ErrorScale) {
     }
 }
 
+/// Room under the bar for the colour of zeros.
+pub(super) const FOR_ZERO: f64 = 22.0;
+
 /// Draws the colour of zeros under the bar.
 pub(super) fn draw_zero(svg: &mut Svg, bar: Rect) {
-    let area = Rect { y: bar.bottom() + 8.0, height: 11.0, ..bar };
+    let area = Rect { y: bar.bottom() + FOR_ZERO - 11.0, height: 11.0, ..bar };
     svg.tag("rect")
         .number("x", area.x)
         .number("y", area.y)

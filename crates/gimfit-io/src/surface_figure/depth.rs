@@ -62,24 +62,16 @@ impl DepthMap {
         if area.abs() < 1.0e-12 {
             return;
         }
-        let range = |p: f64, q: f64, r: f64, count: usize| {
-            let low = (p.min(q).min(r) - 0.5).ceil().max(0.0) as usize;
-            let high = (p.max(q).max(r) + 0.5).floor().clamp(0.0, count as f64) as usize;
-            low..high.max(low)
-        };
         let depths = corners.map(|spot| spot.depth);
-        let across = range(a.0, b.0, c.0, self.columns);
-        for row in range(a.1, b.1, c.1, self.rows) {
+        let rows = centres(a.1.min(b.1).min(c.1), a.1.max(b.1).max(c.1), self.rows);
+        for row in rows {
             let y = row as f64 + 0.5;
-            for column in across.clone() {
+            let (from, to) = span([a, b, c], y);
+            for column in centres(from, to, self.columns) {
                 let x = column as f64 + 0.5;
                 let wb = ((x - a.0) * (c.1 - a.1) - (y - a.1) * (c.0 - a.0)) / area;
                 let wc = ((b.0 - a.0) * (y - a.1) - (b.1 - a.1) * (x - a.0)) / area;
-                let wa = 1.0 - wb - wc;
-                if wa < 0.0 || wb < 0.0 || wc < 0.0 {
-                    continue;
-                }
-                let depth = wa * depths[0] + wb * depths[1] + wc * depths[2];
+                let depth = (1.0 - wb - wc) * depths[0] + wb * depths[1] + wc * depths[2];
                 let cell = &mut self.cells[row * self.columns + column];
                 if depth > cell.0 {
                     *cell = (depth, number);
@@ -117,6 +109,24 @@ impl DepthMap {
         }
         seen
     }
+}
+
+/// Those of the first `count` cells whose centres lie between `low` and `high`.
+fn centres(low: f64, high: f64, count: usize) -> std::ops::Range<usize> {
+    let index = |end: f64| (end - 0.5).ceil().clamp(0.0, count as f64) as usize;
+    index(low)..index(high).max(index(low))
+}
+
+/// Where the triangle with these corners begins and ends at the height `y`.
+fn span(corners: [Px; 3], y: f64) -> (f64, f64) {
+    let mut ends = (f64::MAX, f64::MIN);
+    for (p, q) in [(0, 1), (1, 2), (2, 0)].map(|(p, q)| (corners[p], corners[q])) {
+        if (p.1 <= y) != (q.1 <= y) {
+            let x = p.0 + (y - p.1) / (q.1 - p.1) * (q.0 - p.0);
+            ends = (ends.0.min(x), ends.1.max(x));
+        }
+    }
+    ends
 }
 
 #[cfg(test)]

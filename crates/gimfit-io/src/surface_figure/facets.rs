@@ -61,10 +61,7 @@ pub(super) fn draw(svg: &mut Svg, mesh: &Placed, map: &DepthMap) {
             path.polygon(outline);
         }
         if let Some((shade, _)) = run.first() {
-            svg.tag("path")
-                .attribute("d", path.data())
-                .attribute("fill", &shade.colour())
-                .end();
+            svg.tag("path").attribute("d", path.data()).attribute("fill", &shade.colour()).end();
         }
     }
 }

@@ -52,18 +52,66 @@ impl<'a> Source<'a> {
 
     /// The intervals that hold the coordinates of all points.
     pub(super) fn intervals(&self) -> [Option<Interval>; 3] {
-        let all = || (0..self.rows).flat_map(|i| (0..self.columns).map(move |j| (i, j)));
-        [0, 1, 2].map(|k| Interval::around(all().map(|(i, j)| self.point(i, j)[k])))
+        let mut ends = [[f64::NAN; 2]; 3];
+        for i in 0..self.rows {
+            for j in 0..self.columns {
+                let point = self.point(i, j);
+                for k in 0..3 {
+                    // A number wins over what is none.
+                    ends[k] = [ends[k][0].min(point[k]), ends[k][1].max(point[k])];
+                }
+            }
+        }
+        ends.map(|ends| Interval::around(ends.into_iter()))
+    }
+
+    /// Every how many-th row and column to keep so that about `most` points
+    /// are left: a short side stays whole, long ones become equal.
+    pub(super) fn strides(&self, most: usize) -> [usize; 2] {
+        let (rows, columns) = (self.rows, self.columns);
+        let side = most.isqrt().max(2);
+        let stride =
+            |count: usize, most: usize| stride_for(count.saturating_sub(1), most.max(2) - 1);
+        if rows * columns <= most {
+            [1, 1]
+        } else if rows <= side {
+            [1, stride(columns, most / rows.max(1))]
+        } else if columns <= side {
+            [stride(rows, most / columns.max(1)), 1]
+        } else {
+            [stride(rows, side), stride(columns, side)]
+        }
+    }
+
+    /// Whether the first coordinate is the same all along each row and the
+    /// second along each column, or the other way round: then the third is a
+    /// height over a plane grid.
+    pub(super) fn is_over_plane_grid(&self) -> bool {
+        let [Some(x), Some(y), Some(_)] = self.intervals() else {
+            return false;
+        };
+        let same = |a: f64, b: f64, along: Interval| (a - b).abs() <= 1.0e-6 * along.span();
+        let over = |x_of_row: bool| {
+            (0..self.rows).all(|i| {
+                (0..self.columns).all(|j| {
+                    let (p, in_row, in_column) =
+                        (self.point(i, j), self.point(i, 0), self.point(0, j));
+                    let (first, second) =
+                        if x_of_row { (in_row, in_column) } else { (in_column, in_row) };
+                    same(p[0], first[0], x) && same(p[1], second[1], y)
+                })
+            })
+        };
+        over(true) || over(false)
     }
 
     /// The grid of every so many-th row and column, and the last ones, so
     /// that about `most` points are left. In a `closed` direction the first
     /// row or column comes again at the end.
     pub(super) fn thinned(&self, most: usize, closed: [bool; 2]) -> Grid {
-        let [rows, columns] = share(self.rows, self.columns, most);
-        let mut down = every(self.rows, rows);
-        let mut across = every(self.columns, columns);
-        let strides = [step(&down), step(&across)];
+        let strides = self.strides(most);
+        let mut down = every(self.rows, strides[0]);
+        let mut across = every(self.columns, strides[1]);
         let opens = |i: usize, j: usize, k: usize, l: usize| self.point(i, j) != self.point(k, l);
         if closed[0] && self.rows > 2 {
             let last = self.rows - 1;
@@ -88,38 +136,15 @@ pub(super) struct Grid {
     pub(super) strides: [usize; 2],
 }
 
-/// How many of `rows` and `columns` to keep so that at most `most` points are
-/// left: a short side stays whole, long ones become equal.
-fn share(rows: usize, columns: usize, most: usize) -> [usize; 2] {
-    let side = most.isqrt().max(2);
-    if rows.saturating_mul(columns) <= most {
-        [rows, columns]
-    } else if rows <= side {
-        [rows, (most / rows.max(1)).max(2)]
-    } else if columns <= side {
-        [(most / columns.max(1)).max(2), columns]
-    } else {
-        [side, side]
-    }
-}
-
-/// About `most` of the numbers below `count`: evenly spaced, and the last.
-fn every(count: usize, most: usize) -> Vec<usize> {
-    let stride = stride_for(count.saturating_sub(1), most.saturating_sub(1));
-    let mut kept: Vec<usize> = (0..count).step_by(stride).collect();
+/// Every `stride`-th of the numbers below `count`, and the last.
+fn every(count: usize, stride: usize) -> Vec<usize> {
+    let mut kept: Vec<usize> = (0..count).step_by(stride.max(1)).collect();
     if let Some(&last) = kept.last()
         && last + 1 < count
     {
         kept.push(count - 1);
     }
     kept
-}
-
-fn step(kept: &[usize]) -> usize {
-    match kept {
-        [first, second, ..] => second - first,
-        _ => 1,
-    }
 }
 
 #[cfg(test)]
@@ -152,6 +177,19 @@ mod tests {
         let again = Source::new([5, 1], &[&open[..], &open[..2]].concat(), 2, [&[], &[]])
             .thinned(100, [true, false]);
         assert_eq!(again.points, grid.points);
+    }
+
+    #[test]
+    fn heights_over_a_plane_grid_are_known_either_way_round() {
+        let over = |at: &dyn Fn(f64, f64) -> [f64; 3]| {
+            let flat: Vec<f64> =
+                (0..20).flat_map(|k| at(f64::from(k / 5), f64::from(k % 5))).collect();
+            Source::new([4, 5], &flat, 3, [&[], &[]]).is_over_plane_grid()
+        };
+        assert!(over(&|u, v| [u, v, u * v]));
+        assert!(over(&|u, v| [-v, u, u * v]));
+        assert!(!over(&|u, v| [u, v + 0.01 * u, u * v]));
+        assert!(!over(&|u, v| [u, v, f64::NAN * v]));
     }
 
     proptest! {

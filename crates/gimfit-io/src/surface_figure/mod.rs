@@ -54,8 +54,11 @@ mod shades;
 #[cfg(test)]
 mod tests;
 
-use crate::figure::coordinate_name;
+use crate::figure::{coordinate_name, style, text};
 use grid::Source;
+
+/// Room beside the box for the name of an axis.
+const LONGEST_NAME: f64 = 90.0;
 
 /// All that a figure of a surface fit shows.
 ///
@@ -125,13 +128,14 @@ impl<'a> SurfaceFigure<'a> {
         Source::new(self.mesh_shape, self.mesh_points, self.dimension, self.mesh_parameters)
     }
 
-    /// The names of the axes of the surface panel.
+    /// The names of the axes of the surface panel, cut where they are long.
     fn axis_names(&self) -> [String; 3] {
+        let fitted = |name: &str| text::fit(name, style::LABEL_SIZE + 1.0, LONGEST_NAME);
         if self.dimension == 1 {
             let given = self.coordinate_names.first().map(|name| name.trim());
             let height = given.filter(|name| !name.is_empty()).unwrap_or("z");
-            return ["u".to_owned(), "v".to_owned(), height.to_owned()];
+            return ["u", "v", height].map(fitted);
         }
-        [0, 1, 2].map(|k| coordinate_name(self.coordinate_names, self.dimension, k))
+        [0, 1, 2].map(|k| fitted(&coordinate_name(self.coordinate_names, self.dimension, k)))
     }
 }

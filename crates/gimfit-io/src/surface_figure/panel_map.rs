@@ -29,7 +29,7 @@ pub(super) fn draw(svg: &mut Svg, area: Rect, figure: &SurfaceFigure<'_>, notes:
     let mut bar = Rect { x: map.right() + BESIDE, width: BAR, ..area };
     let zeros = errors.values.iter().filter(|v| **v <= 0.0).count();
     if zeros > 0 {
-        bar.height -= 19.0;
+        bar.height -= colour_bar::FOR_ZERO;
     }
     let count = text::grouped(errors.values.len());
     let scale = ErrorScale::of(errors.values, bar.bottom(), bar.y);
@@ -115,9 +115,7 @@ fn draw_cells(svg: &mut Svg, map: Rect, errors: &Errors<'_>, step: &dyn Fn(f64) 
     paths.resize_with(colours::STEPS + 1, Path::default);
     for i in 0..cells[0] {
         let row: Vec<Option<usize>> = (0..cells[1])
-            .map(|j| {
-                errors.cell(i, j).map(|v| if v > 0.0 { step(v) } else { colours::STEPS })
-            })
+            .map(|j| errors.cell(i, j).map(|v| if v > 0.0 { step(v) } else { colours::STEPS }))
             .collect();
         let mut start = 0;
         for run in row.chunk_by(|a, b| a == b) {

@@ -1,7 +1,8 @@
 //! The main panel: the surface with its data points and control net.
 
 use super::depth::{DepthMap, Spot};
-use super::grid::Grid;
+use super::grid::{Grid, Point, Source};
+use super::lines::Pen;
 use super::{SurfaceFigure, best_view, facets, lines, marks, room, shades};
 use crate::figure::legend::{Entry, Sample};
 use crate::figure::notes::Notes;
@@ -16,11 +17,21 @@ use crate::figure::{message, style, text};
 /// Most points of each grid that are drawn.
 const MOST_OF_MESH: usize = 9000;
 const MOST_OF_DATA: usize = 1600;
-const MOST_OF_NET: usize = 1600;
+
+/// Larger control nets would hide the surface.
+const LARGEST_NET: usize = 1600;
+
+/// If fewer than every so many-th row or column of data points can be drawn,
+/// none is: those few would tell nothing of all.
+const LARGEST_STRIDE: usize = 4;
 
 /// About as many lines of the surface in each direction.
 const ISOLINES: usize = 20;
-const ISOLINE: &str = "#2b4a66";
+const ISOLINE: Pen = Pen { colour: "#2b4a66", width: 0.5, opacity: 0.55 };
+
+/// The control net, and its parts behind or below the surface.
+const NET: Pen = Pen { colour: style::CONTROL, width: 0.8, opacity: 1.0 };
+const HIDDEN_NET: Pen = Pen { colour: style::CONTROL, width: 0.6, opacity: 0.3 };
 
 /// Cells of the depth map to each unit of the picture.
 const FINENESS: f64 = 2.0;
@@ -68,8 +79,12 @@ pub(super) struct Placed {
     pub(super) columns: usize,
     pub(super) spots: Vec<Spot>,
     /// Each point across, upward and toward the viewer, for the light.
-    pub(super) turned: Vec<[f64; 3]>,
+    pub(super) turned: Vec<Point>,
 }
+
+/// Finds the place of a point, and the point across, upward and toward the
+/// viewer.
+type Place<'a> = dyn Fn(&Point) -> (Spot, Point) + 'a;
 
 /// Draws the panel into `area`.
 pub(super) fn draw(
@@ -83,7 +98,7 @@ pub(super) fn draw(
     match main {
         Main::Nothing => {
             message(svg, area, "no points to draw");
-            legend(figure, 1.9)
+            Vec::new()
         }
         Main::Plane([x, y]) => {
             let (sx, sy) = equal_scales(x, y, area.across(), area.upward(), INSET);
@@ -92,7 +107,7 @@ pub(super) fn draw(
             notes.offset(&[&horizontal, &upright]);
             plot::draw_axes(svg, area, &horizontal, &upright);
             // Seen from above, the picture itself is the space.
-            let place = |p: &[f64; 3]| {
+            let place = |p: &Point| {
                 let at = (sx.at(p[0]), sy.at(p[1]));
                 (Spot { at, depth: 0.0 }, [at.0, -at.1, 0.0])
             };
@@ -100,8 +115,8 @@ pub(super) fn draw(
         }
         Main::Space(scene) => {
             let stage = Stage::new(area, scene);
-            stage.draw_box(svg, &names, notes);
-            let place = |p: &[f64; 3]| {
+            stage.draw_box(svg, &names, false, notes);
+            let place = |p: &Point| {
                 // Beyond this, squares of what strays would overflow.
                 let turned = stage.view.turned(p).map(|value| value.clamp(-1.0e6, 1.0e6));
                 (Spot { at: stage.place(p), depth: turned[2] }, turned)
@@ -116,7 +131,7 @@ fn draw_within(
     svg: &mut Svg,
     area: Rect,
     figure: &SurfaceFigure<'_>,
-    place: &dyn Fn(&[f64; 3]) -> (Spot, [f64; 3]),
+    place: &Place<'_>,
     notes: &mut Notes,
 ) -> Vec<Entry> {
     let placed = |grid: &Grid| {
@@ -124,28 +139,57 @@ fn draw_within(
         Placed { rows: grid.rows, columns: grid.columns, spots, turned }
     };
     let mesh = figure.mesh().thinned(MOST_OF_MESH, figure.closed);
-    let net = figure.net().thinned(MOST_OF_NET, figure.closed);
-    let data = figure.data().thinned(MOST_OF_DATA, [false; 2]);
     note_strides(notes, "samples of the surface", &mesh);
-    note_strides(notes, "the control net", &net);
-    note_strides(notes, "the data points", &data);
-    let (mesh, net, data) = (placed(&mesh), placed(&net), placed(&data));
+    let mesh = placed(&mesh);
     let mut map = DepthMap::new(area, FINENESS);
     facets::lay(&mesh, &mut map);
     plot::open_clipped(svg, area, 0.0, "surface");
     facets::draw(svg, &mesh, &map);
     let isolines = [mesh.rows, mesh.columns].map(|count| count.div_ceil(ISOLINES));
-    svg.tag("g").number("opacity", 0.55).open();
-    lines::draw(svg, &mesh, isolines, &map, SLACK_OF_LINES, ISOLINE, 0.5);
-    svg.close("g");
-    lines::draw(svg, &net, [1, 1], &map, SLACK_OF_NET, style::CONTROL, 0.7);
-    marks::draw_squares(svg, &net, &map, SLACK_OF_NET);
-    marks::draw_dots(svg, &data, &map, SLACK_OF_DATA);
-    svg.close("g");
-    if figure.dimension != 2 && !mesh.spots.is_empty() {
-        notes.add("points and lines behind the surface not drawn".to_owned());
+    lines::draw_visible(svg, &mesh, isolines, &map, SLACK_OF_LINES, ISOLINE);
+    if net_is_drawn(figure) {
+        let net = placed(&figure.net().thinned(LARGEST_NET, figure.closed));
+        lines::draw_all(svg, &net, HIDDEN_NET);
+        lines::draw_visible(svg, &net, [1, 1], &map, SLACK_OF_NET, NET);
+        marks::draw_squares(svg, &net, &map, SLACK_OF_NET);
+        if figure.dimension != 2 {
+            notes.add("control net behind or below the surface drawn pale".to_owned());
+        }
+    } else {
+        let size = size(&figure.net());
+        notes.add(format!("{size} control points too close together to be drawn"));
     }
-    legend(figure, marks::dot_radius(&data))
+    let mut dot_radius = 1.0;
+    if data_is_drawn(figure) {
+        let data = figure.data().thinned(MOST_OF_DATA, [false; 2]);
+        note_strides(notes, "the data points", &data);
+        let data = placed(&data);
+        marks::draw_dots(svg, &data, &map, SLACK_OF_DATA);
+        dot_radius = marks::dot_radius(&data);
+        if figure.dimension != 2 {
+            notes.add("data points behind the surface not drawn".to_owned());
+        }
+    } else {
+        let size = size(&figure.data());
+        notes.add(format!("{size} data points too close together to be drawn"));
+    }
+    svg.close("g");
+    legend(figure, dot_radius)
+}
+
+fn net_is_drawn(figure: &SurfaceFigure<'_>) -> bool {
+    let net = figure.net();
+    net.rows() * net.columns() <= LARGEST_NET
+}
+
+fn data_is_drawn(figure: &SurfaceFigure<'_>) -> bool {
+    let strides = figure.data().strides(MOST_OF_DATA);
+    strides.into_iter().all(|stride| stride <= LARGEST_STRIDE)
+}
+
+/// Rows and columns as text.
+fn size(grid: &Source<'_>) -> String {
+    format!("{} × {}", text::grouped(grid.rows()), text::grouped(grid.columns()))
 }
 
 fn note_strides(notes: &mut Notes, name: &str, grid: &Grid) {
@@ -162,22 +206,21 @@ fn note_strides(notes: &mut Notes, name: &str, grid: &Grid) {
 
 /// Entries of the legend, in the order in which the eye looks for them.
 pub(super) fn legend(figure: &SurfaceFigure<'_>, dot_radius: f64) -> Vec<Entry> {
-    let size = |[rows, columns]: [usize; 2]| {
-        format!("{} × {}", text::grouped(rows), text::grouped(columns))
-    };
-    let (data, net) = (figure.data(), figure.net());
-    vec![
-        Entry {
-            sample: Sample::Line(shades::SAMPLE.to_owned(), 9.0),
-            name: "fitted surface".to_owned(),
-        },
-        Entry {
+    let mut entries = vec![Entry {
+        sample: Sample::Line(shades::SAMPLE.to_owned(), 9.0),
+        name: "fitted surface".to_owned(),
+    }];
+    if data_is_drawn(figure) {
+        entries.push(Entry {
             sample: Sample::Dot(style::DATA.to_owned(), dot_radius),
-            name: format!("data points ({})", size([data.rows(), data.columns()])),
-        },
-        Entry {
+            name: format!("data points ({})", size(&figure.data())),
+        });
+    }
+    if net_is_drawn(figure) {
+        entries.push(Entry {
             sample: Sample::Polygon(style::CONTROL.to_owned()),
-            name: format!("control net ({})", size([net.rows(), net.columns()])),
-        },
-    ]
+            name: format!("control net ({})", size(&figure.net())),
+        });
+    }
+    entries
 }

@@ -1,7 +1,7 @@
 //! The part of space that the surface panel shows, and its proportions.
 
 use super::SurfaceFigure;
-use super::grid::Source;
+use super::grid::{Grid, Point, Source};
 use crate::figure::extent::{cut, padded};
 use crate::figure::notes::Notes;
 use crate::figure::panel_space::THINNEST;
@@ -9,7 +9,19 @@ use crate::figure::scale::{Interval, shortest_span};
 use crate::figure::view::View;
 
 /// Heights over parameters: the height of the box, relative to its floor.
-const HEIGHT: f64 = 0.5;
+const HEIGHT: f64 = 0.42;
+
+/// The mean slope of heights that have that height; steeper, rougher ones are
+/// drawn lower, down to [`LOWEST`] of it.
+const STEEPEST: f64 = 0.55;
+const LOWEST: f64 = 0.4;
+
+/// Points looked at to find the slope, about as many as are drawn.
+const MOST_POINTS: usize = 9000;
+
+/// Heights over a plane grid with a relative height between these are drawn
+/// at the scale of the floor, others like heights over parameters.
+const PLAIN_HEIGHT: (f64, f64) = (0.12, 0.8);
 
 /// Floors longer than this many times their width are drawn as squares, if
 /// their sides are parameters.
@@ -36,7 +48,10 @@ impl Room {
         let spans = shown.map(|values| values.span());
         let longest = spans.iter().copied().fold(0.0, f64::max);
         let unit = if figure.dimension == 1 {
-            over_parameters(&shown)
+            over_floor(figure, &shown)
+        } else if is_steep_or_low(figure, &shown) {
+            notes.add("coordinates drawn at unequal scales".to_owned());
+            over_floor(figure, &shown)
         } else if longest > shortest_span(size) {
             let own = spans.map(|span| {
                 span < FLATTEST * longest && span > shortest_span(size).max(1.0e-9 * longest)
@@ -62,22 +77,57 @@ impl Room {
     }
 }
 
-/// Units for heights over a floor of parameters.
-fn over_parameters(shown: &[Interval; 3]) -> [f64; 3] {
+/// Whether `figure` shows heights over a plane grid that would be hard to see
+/// at the scale of the floor.
+fn is_steep_or_low(figure: &SurfaceFigure<'_>, shown: &[Interval; 3]) -> bool {
+    let (width, floor) =
+        (shown[0].span().min(shown[1].span()), shown[0].span().max(shown[1].span()));
+    let (height, size) = (shown[2].span(), shown[2].low.abs().max(shown[2].high.abs()));
+    let (low, high) = (PLAIN_HEIGHT.0 * floor, PLAIN_HEIGHT.1 * floor);
+    let plain = (low..=high).contains(&height);
+    let flat = height <= shortest_span(size).max(1.0e-9 * floor);
+    !plain && !flat && width > FLATTEST * floor && figure.data().is_over_plane_grid()
+}
+
+/// Units for heights over a floor of parameters or a plane grid.
+fn over_floor(figure: &SurfaceFigure<'_>, shown: &[Interval; 3]) -> [f64; 3] {
     let [u, v, z] = shown.map(|values| 0.5 * values.opened().span());
     let (u, v) =
         if u < LONGEST_FLOOR * v && v < LONGEST_FLOOR * u { (u.max(v), u.max(v)) } else { (u, v) };
-    [u, v, z / HEIGHT]
+    let unit = [u, v, z / HEIGHT];
+    let slope = mean_slope(&figure.data().thinned(MOST_POINTS, [false; 2]), unit);
+    // A slope that is no number asks for nothing.
+    let lowered = if slope > STEEPEST { (STEEPEST / slope).max(LOWEST) } else { 1.0 };
+    [u, v, unit[2] / lowered]
+}
+
+/// How far the heights of `grid` rise or fall from point to point, relative to
+/// how far the points lie apart on the floor, in these units.
+fn mean_slope(grid: &Grid, unit: [f64; 3]) -> f64 {
+    let (mut risen, mut walked) = (0.0, 0.0);
+    let mut step = |from: &Point, to: &Point| {
+        let [u, v, z] = [0, 1, 2].map(|k| (to[k] - from[k]) / unit[k]);
+        if u.is_finite() && v.is_finite() && z.is_finite() {
+            risen += z.abs();
+            walked += u.hypot(v);
+        }
+    };
+    for (k, point) in grid.points.iter().enumerate() {
+        if k % grid.columns > 0 {
+            step(&grid.points[k - 1], point);
+        }
+        if k >= grid.columns {
+            step(&grid.points[k - grid.columns], point);
+        }
+    }
+    risen / walked
 }
 
 /// For each coordinate the interval to show, without padding.
 ///
 /// Data points are always inside; the surface and its net count as far as
 /// they stray no further than the data are wide.
-pub(super) fn intervals(
-    figure: &SurfaceFigure<'_>,
-    notes: &mut Notes,
-) -> [Option<Interval>; 3] {
+pub(super) fn intervals(figure: &SurfaceFigure<'_>, notes: &mut Notes) -> [Option<Interval>; 3] {
     let data = figure.data().intervals();
     let spans = data.map(|values| values.map_or(0.0, |values| values.span()));
     let longest = spans.into_iter().fold(0.0, f64::max);

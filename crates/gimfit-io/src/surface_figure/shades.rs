@@ -11,7 +11,7 @@ const STEPS: usize = 56;
 
 /// Colours of the two sides of a surface from shadow to full light.
 const FRONT: [[f64; 3]; 3] = [[38.0, 74.0, 107.0], [112.0, 164.0, 203.0], [226.0, 240.0, 249.0]];
-const BACK: [[f64; 3]; 3] = [[84.0, 76.0, 66.0], [184.0, 172.0, 152.0], [243.0, 237.0, 225.0]];
+const BACK: [[f64; 3]; 3] = [[98.0, 90.0, 80.0], [196.0, 186.0, 168.0], [245.0, 241.0, 232.0]];
 
 /// Colour of the front where a legend shows it.
 pub(super) const SAMPLE: &str = "#8ab5d6";
