@@ -6,6 +6,7 @@ use super::extent;
 use super::layers::{self, Layers, Looks};
 use super::notes::Notes;
 use super::plot::Rect;
+use super::range::InUnits;
 use super::rows::Rows;
 use super::scale::{Interval, Scale, equal_scales};
 use super::svg::Svg;
@@ -60,7 +61,7 @@ impl Scene {
 pub(super) fn draw(
     svg: &mut Svg,
     area: Rect,
-    figure: &CurveFigure<'_>,
+    figure: &InUnits<'_>,
     scene: Option<Scene>,
     notes: &mut Notes,
 ) -> Looks {
@@ -115,9 +116,9 @@ impl Stage {
         if self.view.sees_high_side(k) == near { self.sides[k].high } else { self.sides[k].low }
     }
 
-    fn draw_box(&self, svg: &mut Svg, figure: &CurveFigure<'_>, notes: &mut Notes) {
+    fn draw_box(&self, svg: &mut Svg, figure: &InUnits<'_>, notes: &mut Notes) {
         for k in 0..3 {
-            if self.draw_axis(svg, k, &figure.coordinate_name(k)) {
+            if self.draw_axis(svg, k, &figure.coordinate_name(k), figure.unit(k)) {
                 notes.offset_of_labels();
             }
         }
@@ -156,14 +157,14 @@ impl Stage {
     }
 
     /// Draws grid, labels and name; tells whether the labels have an offset.
-    fn draw_axis(&self, svg: &mut Svg, k: usize, name: &str) -> bool {
+    fn draw_axis(&self, svg: &mut Svg, k: usize, name: &str, unit: i32) -> bool {
         let (next, last) = ((k + 1) % 3, (k + 2) % 3);
         let (near_next, near_last) = self.labelled_edge(k);
         let (from, to) = self.edge(k, near_next, near_last);
         let length = (to.0 - from.0).hypot(to.1 - from.1);
         let direction = if k == 2 { Direction::Upward } else { Direction::Across };
         let values = self.sides[k].opened();
-        let ticks = ticks::linear_ticks(values, length, direction, false);
+        let ticks = ticks::linear_ticks(values, length, direction, unit);
         let mut widest = 0.0_f64;
         let outward = self.outward(from, to);
         for (value, label) in &ticks.marks {
