@@ -1,6 +1,7 @@
 //! What can be typed, as clap reads it. Values that mean one of several things, such as a rule or a
 //! file, are told apart here.
 
+use crate::values;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use gimfit::Duplicates;
 use gimfit_io::points::{ColumnChoice, DecimalMark, Delimiter, FormatChoice, PartChoice};
@@ -36,7 +37,6 @@ pub(crate) enum Command {
 
 /// How points are read.
 #[derive(Debug, Args)]
-#[command(next_help_heading = "Reading")]
 pub(crate) struct InputArguments {
     /// File of points: CSV, TSV, plain text, XYZ, airfoil .dat, GPX, NumPy .npy; - for standard
     /// input
@@ -44,36 +44,39 @@ pub(crate) struct InputArguments {
     pub(crate) points: PathBuf,
 
     /// Columns to take as coordinates, by name or by number from 1, such as x,y or 2,3
-    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', help_heading = "Reading")]
     pub(crate) columns: Vec<ColumnChoice>,
 
     /// Column that holds the parameter of each point, by name or number
-    #[arg(long, value_name = "COLUMN")]
+    #[arg(long, value_name = "COLUMN", help_heading = "Reading")]
     pub(crate) abscissa: Option<ColumnChoice>,
 
     /// What separates the cells of a text file, where it cannot be told from the content
     /// (comma, semicolon, tab, blanks)
-    #[arg(long, value_name = "SEPARATOR")]
+    #[arg(long, value_name = "SEPARATOR", help_heading = "Reading")]
     pub(crate) delimiter: Option<Delimiter>,
 
     /// Decimal mark of a text file, where it cannot be told from the content: point or comma
-    #[arg(long, value_name = "MARK")]
+    #[arg(long, value_name = "MARK", help_heading = "Reading")]
     pub(crate) decimal: Option<DecimalMark>,
 
     /// Format of the file, where its ending and its content mislead: text, csv, tsv, xyz, airfoil,
     /// gpx, npy
-    #[arg(long, value_name = "FORMAT")]
+    #[arg(long, value_name = "FORMAT", help_heading = "Reading")]
     pub(crate) format: Option<FormatChoice>,
 
     /// Which piece of a file in several pieces, by number from 1, or all of them one after another
-    #[arg(long, value_name = "N|all")]
+    #[arg(long, value_name = "N|all", help_heading = "Reading")]
     pub(crate) part: Option<PartChoice>,
 }
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Exit status: 0 done; 1 a residual was not reached (the best fit is written \
-all the same); 2 wrong usage or input, nothing written.
+    after_help = "Exit status: 0 done; 1 a residual was not reached, or the run was interrupted \
+(the best fit is written all the same); 2 wrong usage or input, nothing written, or a file that \
+could not be written; 130 interrupted while reading, or twice, nothing half-written is left.
+
+Files take their names when all of them are complete.
 
 Examples:
   gimfit curve airfoil.dat -o airfoil.svg
@@ -84,11 +87,6 @@ Examples:
 pub(crate) struct CurveArguments {
     #[command(flatten)]
     pub(crate) input: InputArguments,
-
-    /// File to write; by its ending a document (.json), control points or samples (.csv), or a
-    /// picture (.svg, .png). May be given several times; - writes the document to standard output
-    #[arg(short, long, value_name = "FILE")]
-    pub(crate) output: Vec<PathBuf>,
 
     /// Degree of the curve
     #[arg(long, default_value_t = 3, value_name = "P", help_heading = "Curve")]
@@ -109,6 +107,7 @@ pub(crate) struct CurveArguments {
         long,
         value_name = "T",
         requires = "closed",
+        value_parser = values::number,
         allow_negative_numbers = true,
         help_heading = "Curve"
     )]
@@ -164,18 +163,29 @@ pub(crate) struct CurveArguments {
 
     /// Largest residual to reach, in the unit of the points; 0 runs all iterations [default: 1e-12
     /// of the extent, or what rounding allows]
-    #[arg(long, value_name = "T", allow_negative_numbers = true, help_heading = "Iteration")]
+    #[arg(
+        long,
+        value_name = "T",
+        value_parser = values::number,
+        allow_negative_numbers = true,
+        help_heading = "Iteration"
+    )]
     pub(crate) residual: Option<f64>,
 
     /// Iterations whose fits are kept, such as 0,2,4,15,30
     #[arg(long, value_name = "LIST", value_delimiter = ',', help_heading = "Iteration")]
     pub(crate) keep: Vec<usize>,
 
+    /// File to write; by its ending a document (.json), control points or samples (.csv), or a
+    /// picture (.svg, .png). May be given several times; - writes the document to standard output
+    #[arg(short, long, value_name = "FILE", help_heading = "Writing")]
+    pub(crate) output: Vec<PathBuf>,
+
     /// Samples written to .csv files instead of control points
-    #[arg(long, value_name = "N", help_heading = "Writing")]
+    #[arg(long, value_name = "N", value_parser = values::samples, help_heading = "Writing")]
     pub(crate) samples: Option<usize>,
 
-    /// File for the report: .json, otherwise text
+    /// File for the report: .json, otherwise text; - for text on standard output
     #[arg(long, value_name = "FILE", help_heading = "Writing")]
     pub(crate) report: Option<PathBuf>,
 
@@ -197,6 +207,14 @@ pub(crate) struct CurveArguments {
 pub(crate) enum RuleOrFile<R> {
     Rule(R),
     File(PathBuf),
+}
+
+impl<R: ValueEnum> RuleOrFile<R> {
+    /// The names of all rules.
+    pub(crate) fn names() -> Vec<String> {
+        let values = R::value_variants().iter().filter_map(ValueEnum::to_possible_value);
+        values.map(|value| value.get_name().to_owned()).collect()
+    }
 }
 
 impl<R: ValueEnum> FromStr for RuleOrFile<R> {
@@ -265,6 +283,8 @@ pub(crate) enum MethodChoice {
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = "Exit status: 0 done; 2 wrong usage or input, or a file that could not be \
+written; 130 interrupted, nothing half-written is left.")]
 #[command(group(clap::ArgGroup::new("where").required(true).args(["samples", "at"])))]
 pub(crate) struct EvaluateArguments {
     /// Document of a fitted curve (.json); - for standard input
@@ -272,7 +292,7 @@ pub(crate) struct EvaluateArguments {
     pub(crate) document: PathBuf,
 
     /// Number of samples at equal steps of the parameter, both ends included
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = values::samples)]
     pub(crate) samples: Option<usize>,
 
     /// File of parameters to evaluate at; - for standard input. On a closed curve they may lie
@@ -281,14 +301,14 @@ pub(crate) struct EvaluateArguments {
     pub(crate) at: Option<PathBuf>,
 
     /// Derivatives to add, up to this order
-    #[arg(long, default_value_t = 0, value_name = "K")]
+    #[arg(long, default_value_t = 0, value_name = "K", value_parser = values::derivatives)]
     pub(crate) derivatives: usize,
 
     /// Evaluate the fit kept at this iteration instead of the final one
     #[arg(long, value_name = "N")]
     pub(crate) iteration: Option<usize>,
 
-    /// File to write, .csv or .json [default: CSV on standard output]
+    /// File to write, .csv or .json; - for CSV on standard output [default: -]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
 }

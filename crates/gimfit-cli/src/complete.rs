@@ -9,7 +9,7 @@ use clap::CommandFactory;
 pub(crate) fn completions(arguments: &CompletionsArguments) -> anyhow::Result<Ending> {
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, &mut Arguments::command(), "gimfit", &mut script);
-    output::result(&String::from_utf8_lossy(&script))?;
+    output::data(&String::from_utf8_lossy(&script))?;
     Ok(Ending::Done)
 }
 

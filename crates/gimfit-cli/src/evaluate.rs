@@ -1,52 +1,51 @@
 //! `gimfit evaluate`: samples of a fitted curve.
 
 use crate::arguments::EvaluateArguments;
-use crate::{Ending, input};
-use anyhow::{Context, bail, ensure};
+use crate::targets::{self, Kind};
+use crate::{Ending, input, output, signal};
+use anyhow::bail;
 use gimfit::Curve;
-use gimfit_io::document::{Document, Geometry, parse_document, read_document};
+use gimfit_io::document::{Document, Geometry, read_document};
+use gimfit_io::points::input_name;
 use gimfit_io::table::write_samples;
 use gimfit_io::write::write_file;
-use std::io::{Read, Write};
 use std::path::Path;
 
 pub(crate) fn run(arguments: &EvaluateArguments) -> anyhow::Result<Ending> {
-    let document = document(&arguments.document)?;
+    let kind = check(arguments)?;
+    signal::listen()?;
+    let document = read_document(&arguments.document)?;
     let curve = curve(&document, arguments)?;
     let parameters = parameters(&curve, arguments)?;
     let names = document.coordinate_names.clone().unwrap_or_default();
     let order = arguments.derivatives;
-    match &arguments.output {
-        None => {
-            let mut out = std::io::BufWriter::new(std::io::stdout().lock());
-            write_samples(&mut out, &curve, &parameters, order, &names)?;
-            out.flush()?;
+    match (kind, &arguments.output) {
+        (Kind::Json, Some(path)) => {
+            let text = json(&curve, &parameters, order)?;
+            write_file(path, |out| out.write_all(text.as_bytes()))?;
         }
-        Some(path) => match path.extension().and_then(|ending| ending.to_str()) {
-            Some("csv") => {
-                write_file(path, |out| write_samples(out, &curve, &parameters, order, &names))?;
-            }
-            Some("json") => {
-                let text = json(&curve, &parameters, order)?;
-                write_file(path, |out| out.write_all(text.as_bytes()))?;
-            }
-            _ => bail!("cannot write {}: use .csv or .json", path.display()),
-        },
+        (Kind::Csv, Some(path)) => {
+            write_file(path, |out| write_samples(out, &curve, &parameters, order, &names))?;
+        }
+        _ => output::stream(|out| write_samples(out, &curve, &parameters, order, &names))?,
     }
     Ok(Ending::Done)
 }
 
-fn document(path: &Path) -> anyhow::Result<Document> {
-    if path.as_os_str() != "-" {
-        return Ok(read_document(path)?);
-    }
-    let mut bytes = Vec::new();
-    std::io::stdin().lock().read_to_end(&mut bytes).context("cannot read standard input")?;
-    Ok(parse_document(&bytes, "standard input")?)
+/// Refuses what cannot work before any work is done; tells what to write.
+fn check(arguments: &EvaluateArguments) -> anyhow::Result<Kind> {
+    let at = arguments.at.as_deref().map(|path| ("--at", path));
+    let inputs: Vec<(&str, &Path)> =
+        [("FILE", arguments.document.as_path())].into_iter().chain(at).collect();
+    input::check_standard_input(&inputs)?;
+    let paths: Vec<&Path> = inputs.iter().map(|(_, path)| *path).collect();
+    let Some(output) = &arguments.output else { return Ok(Kind::StandardOutput) };
+    targets::check(&[output.as_path()], &paths)?;
+    targets::known_kind(output, &[(Kind::Csv, ".csv"), (Kind::Json, ".json")])
 }
 
 fn curve(document: &Document, arguments: &EvaluateArguments) -> anyhow::Result<Curve> {
-    let name = arguments.document.display();
+    let name = input_name(&arguments.document);
     let Some(Geometry::Curve(geometry)) = &document.geometry else {
         bail!("{name} holds no curve; write one with gimfit curve POINTS -o FILE.json");
     };
@@ -62,16 +61,12 @@ fn curve(document: &Document, arguments: &EvaluateArguments) -> anyhow::Result<C
     Ok(geometry.curve_with(&kept.control_points)?)
 }
 
-/// Most samples at equal steps: beyond, the table would not fit into memory.
-const MOST_SAMPLES: usize = 1_000_000_000;
-
 fn parameters(curve: &Curve, arguments: &EvaluateArguments) -> anyhow::Result<Vec<f64>> {
     if let Some(count) = arguments.samples {
-        ensure!((1..=MOST_SAMPLES).contains(&count), "--samples must lie between 1 and 1e9");
         return Ok(curve.equal_steps(count));
     }
     let Some(path) = &arguments.at else { bail!("give --samples or --at") };
-    let mut list = input::numbers(path, "--at")?;
+    let mut list = input::numbers(path, "--at", &[])?;
     let (start, end) = curve.domain();
     if curve.is_periodic() {
         // A closed curve goes on for ever; only parameters outside the domain are brought back.
@@ -82,7 +77,7 @@ fn parameters(curve: &Curve, arguments: &EvaluateArguments) -> anyhow::Result<Ve
     if let Some(index) = list.iter().position(|t| !(start..=end).contains(t)) {
         bail!(
             "{}: number {} is {}, outside the domain [{start}, {end}] of the curve",
-            path.display(),
+            input_name(path),
             index + 1,
             list[index]
         );

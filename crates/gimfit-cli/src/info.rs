@@ -1,25 +1,18 @@
 //! `gimfit info`: what a file holds.
 
 use crate::arguments::InfoArguments;
+use crate::explain::explain;
 use crate::{Ending, input, output};
-use anyhow::Context;
 use gimfit::PointsView;
 use gimfit::points::Extent;
 use gimfit_io::document::{Document, Geometry, is_document, parse_document};
-use gimfit_io::points::{PointTable, read_points_from};
+use gimfit_io::points::{PointTable, input_name, read_input, read_points_from};
 use std::fmt::Write;
-use std::io::Read;
 
 pub(crate) fn run(arguments: &InfoArguments) -> anyhow::Result<Ending> {
     let path = &arguments.input.points;
-    let standard = path.as_os_str() == "-";
-    let name = if standard { "standard input".to_owned() } else { path.display().to_string() };
-    let mut bytes = Vec::new();
-    if standard {
-        std::io::stdin().lock().read_to_end(&mut bytes).context("cannot read standard input")?;
-    } else {
-        bytes = std::fs::read(path).with_context(|| format!("cannot read {name}"))?;
-    }
+    let name = input_name(path);
+    let bytes = read_input(path)?;
     let facts = if is_document(&bytes) {
         of_document(&parse_document(&bytes, &name)?, name)
     } else {
@@ -27,7 +20,11 @@ pub(crate) fn run(arguments: &InfoArguments) -> anyhow::Result<Ending> {
         let options = input::options(&arguments.input);
         of_points(&read_points_from(&bytes, &name, ending.as_deref(), &options)?)?
     };
-    output::result(&if arguments.json { facts.json() } else { facts.text() })?;
+    if arguments.json {
+        output::data(&facts.json())?;
+    } else {
+        output::text(&facts.text())?;
+    }
     Ok(Ending::Done)
 }
 
@@ -67,8 +64,9 @@ impl Facts {
 
 fn of_points(table: &PointTable) -> anyhow::Result<Facts> {
     let mut facts = Facts(Vec::new());
-    let view = PointsView::new(table.dimension(), &table.coordinates)?;
-    let extent = Extent::of(view)?;
+    let view = PointsView::new(table.dimension(), &table.coordinates)
+        .map_err(|error| explain(error, table))?;
+    let extent = Extent::of(view).map_err(|error| explain(error, table))?;
     facts.add("file", table.source.clone());
     facts.add("holds", "points");
     facts.add("read_as", table.format.to_string());

@@ -1,8 +1,9 @@
 //! Points and numbers from files, as the arguments describe them.
 
 use crate::arguments::InputArguments;
-use anyhow::Context;
-use gimfit_io::points::{PointTable, ReadOptions, read_numbers, read_points};
+use crate::targets::is_standard;
+use anyhow::{anyhow, ensure};
+use gimfit_io::points::{PointTable, Problem, ReadOptions, read_numbers, read_points};
 use std::path::Path;
 
 /// Reads the points.
@@ -22,7 +23,27 @@ pub(crate) fn options(arguments: &InputArguments) -> ReadOptions {
     }
 }
 
-/// Reads a list of numbers given for an option.
-pub(crate) fn numbers(path: &Path, option: &str) -> anyhow::Result<Vec<f64>> {
-    read_numbers(path).with_context(|| format!("{option} {}", path.display()))
+/// Reads a list of numbers given for an option, which takes one of `words` as well.
+pub(crate) fn numbers(path: &Path, option: &str, words: &[String]) -> anyhow::Result<Vec<f64>> {
+    read_numbers(path).map_err(|error| {
+        let unknown = matches!(error.problem(), Problem::NotFound) && !words.is_empty();
+        let error = anyhow!(error).context(format!("{option} {}", path.display()));
+        if unknown {
+            error.context(format!("{option} takes {} or a file of numbers", words.join(", ")))
+        } else {
+            error
+        }
+    })
+}
+
+/// Refuses standard input where it would be read more than once; each input has its name.
+pub(crate) fn check_standard_input(inputs: &[(&str, &Path)]) -> anyhow::Result<()> {
+    let names: Vec<&str> =
+        inputs.iter().filter(|(_, path)| is_standard(path)).map(|(name, _)| *name).collect();
+    ensure!(
+        names.len() <= 1,
+        "standard input can be read only once, but {} both ask for it; give a file for one",
+        names.join(" and ")
+    );
+    Ok(())
 }

@@ -4,12 +4,15 @@ mod arguments;
 mod complete;
 mod curve;
 mod evaluate;
+mod explain;
 mod info;
 mod input;
 mod output;
 mod progress;
 mod reproduce;
 mod signal;
+mod targets;
+mod values;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
@@ -25,7 +28,7 @@ enum Ending {
 }
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    let arguments = Arguments::try_parse().unwrap_or_else(|error| output::usage(&error));
     let result = match arguments.command {
         Command::Curve(arguments) => curve::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),

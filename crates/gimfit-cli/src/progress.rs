@@ -27,15 +27,20 @@ impl Progress {
         if !self.enabled || self.started.elapsed() < PATIENCE {
             return;
         }
-        let most = self.most as u64;
+        let (most, elapsed) = (self.most as u64, self.started.elapsed());
+        let position = snapshot.entry.iteration as u64;
+        let message = format!("residual {:.2e}", snapshot.entry.max_residual);
+        // All is set before the bar is drawn first; what is too wide for the line is cut.
         let bar = self.bar.get_or_insert_with(|| {
-            let style =
-                ProgressStyle::with_template("{elapsed} [{bar:30}] iteration {pos}/{len}, {msg}");
-            let bar = ProgressBar::new(most);
+            let style = ProgressStyle::with_template("{elapsed} [{bar:20}] {pos}/{len} {wide_msg}");
+            let bar = ProgressBar::new(most)
+                .with_elapsed(elapsed)
+                .with_position(position)
+                .with_message(message.clone());
             style.map_or(bar.clone(), |style| bar.with_style(style))
         });
-        bar.set_position(snapshot.entry.iteration as u64);
-        bar.set_message(format!("largest residual {:.2e}", snapshot.entry.max_residual));
+        bar.set_message(message);
+        bar.set_position(position);
     }
 
     /// Takes the bar away.

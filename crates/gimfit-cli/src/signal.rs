@@ -1,5 +1,7 @@
 //! Interrupts: a fit that is under way stops and is written; before and after, the program ends.
+//! Either way no temporary file stays behind.
 
+use gimfit_io::write::remove_unfinished;
 use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 
 static STAGE: AtomicU8 = AtomicU8::new(Stage::Reading as u8);
@@ -8,7 +10,7 @@ static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 /// What an interrupt meets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Stage {
-    /// Nothing worth keeping: the program ends.
+    /// Nothing worth keeping, or the result can be had again soon: the program ends.
     Reading = 0,
     /// The iteration stops, and its fit is written.
     Fitting = 1,
@@ -24,6 +26,7 @@ pub(crate) fn listen() -> anyhow::Result<()> {
     ctrlc::set_handler(|| {
         let again = INTERRUPTED.swap(true, Ordering::SeqCst);
         if again || STAGE.load(Ordering::SeqCst) == Stage::Reading as u8 {
+            remove_unfinished();
             std::process::exit(INTERRUPTED_STATUS);
         }
     })?;

@@ -13,9 +13,9 @@ pub fn write_control_points(
     names: &[String],
 ) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
-    table.write_record(coordinate_names(curve, names))?;
+    table.write_record(coordinate_names(curve, names)).map_err(io_error)?;
     for point in curve.control_points().iter() {
-        table.write_record(point.iter().map(|x| format!("{x:?}")))?;
+        table.write_record(point.iter().map(|x| format!("{x:?}"))).map_err(io_error)?;
     }
     table.flush()
 }
@@ -35,15 +35,26 @@ pub fn write_samples(
     let names = coordinate_names(curve, names);
     let mut table = csv::Writer::from_writer(out);
     let derived = (1..=order).flat_map(|k| names.iter().map(move |name| format!("d{k} {name}")));
-    table.write_record(std::iter::once("t".to_owned()).chain(names.clone()).chain(derived))?;
+    table
+        .write_record(std::iter::once("t".to_owned()).chain(names.clone()).chain(derived))
+        .map_err(io_error)?;
     let mut values = vec![0.0; (order + 1) * curve.dimension()];
     for &t in parameters {
         curve
             .derivatives_into(t, order, &mut values)
             .map_err(|error| io::Error::new(io::ErrorKind::InvalidInput, error))?;
-        table.write_record(std::iter::once(&t).chain(&values).map(|x| format!("{x:?}")))?;
+        let row = std::iter::once(&t).chain(&values).map(|x| format!("{x:?}"));
+        table.write_record(row).map_err(io_error)?;
     }
     table.flush()
+}
+
+/// What the writer said, without the wrapping that would hide which kind of error it is.
+fn io_error(error: csv::Error) -> io::Error {
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => error,
+        other => io::Error::other(format!("{other:?}")),
+    }
 }
 
 fn coordinate_names(curve: &Curve, names: &[String]) -> Vec<String> {
@@ -52,4 +63,34 @@ fn coordinate_names(curve: &Curve, names: &[String]) -> Vec<String> {
         return names.to_vec();
     }
     (1..=dimension).map(|i| format!("x{i}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Gone;
+
+    impl Write for Gone {
+        fn write(&mut self, _: &[u8]) -> io::Result<usize> {
+            Err(io::ErrorKind::BrokenPipe.into())
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn an_error_of_the_writer_keeps_its_kind() {
+        let points = gimfit::Points::new(1, (0..5000).map(f64::from).collect()).unwrap();
+        let mut knots = vec![0.0];
+        knots.extend((0..5000).map(f64::from));
+        knots.push(4999.0);
+        let curve = Curve::new(gimfit::KnotVector::open(1, knots).unwrap(), points).unwrap();
+        let error = write_control_points(&mut Gone, &curve, &[]).unwrap_err();
+        assert_eq!(error.kind(), io::ErrorKind::BrokenPipe);
+        let samples = write_samples(&mut Gone, &curve, &curve.equal_steps(5000), 0, &[]);
+        assert_eq!(samples.unwrap_err().kind(), io::ErrorKind::BrokenPipe);
+    }
 }

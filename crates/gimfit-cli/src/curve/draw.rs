@@ -70,6 +70,7 @@ pub(super) fn figure(job: &Job<'_>) -> String {
         caption: &caption,
         dimension,
         coordinate_names: &table.column_names,
+        parameter_name: table.abscissa_name.as_deref().unwrap_or("parameter"),
         closed: report.closed,
         data_points: &data,
         parameters: &fit.parameters,

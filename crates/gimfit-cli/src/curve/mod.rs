@@ -1,19 +1,23 @@
 //! `gimfit curve`: the main job.
 
 mod draw;
-mod explain;
+mod explain_fit;
 mod plan;
 mod print;
 mod save;
 
 use crate::arguments::{CurveArguments, MethodChoice};
+use crate::explain::explain;
 use crate::progress::Progress;
 use crate::signal::{self, Stage};
+use crate::targets::is_standard;
 use crate::{Ending, output};
+use explain_fit::explain_fit;
 use gimfit::{PointsView, Termination, fit_curve_observed};
 use gimfit_io::document::{Document, Seconds, document_of};
 use gimfit_io::points::PointTable;
 use plan::Plan;
+use save::Outputs;
 use std::time::Instant;
 
 /// A fit with everything that is told about it.
@@ -31,7 +35,8 @@ pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
     let Plan { table, options } = plan;
     let read = clock.elapsed().as_secs_f64();
 
-    let view = PointsView::new(table.dimension(), &table.coordinates)?;
+    let view = PointsView::new(table.dimension(), &table.coordinates)
+        .map_err(|error| explain(error, &table))?;
     let mut progress = Progress::new(arguments.quiet, options.iterations);
     signal::enter(Stage::Fitting);
     let clock = Instant::now();
@@ -39,7 +44,7 @@ pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
     let fitted = clock.elapsed().as_secs_f64();
     signal::enter(Stage::Writing);
     progress.finish();
-    let fit = result.map_err(|error| explain::explain(error, &table, arguments))?;
+    let fit = result.map_err(|error| explain_fit(error, &table, arguments))?;
 
     let mut document = document_of(&fit);
     document.coordinate_names = Some(table.column_names.clone());
@@ -49,17 +54,20 @@ pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
         report.seconds = Some(Seconds { read, fit: fitted, write: None });
     }
     let mut job = Job { table: &table, fit: &fit, document };
-    let mut written = save::outputs(&mut job, arguments)?;
-    written.extend(arguments.report.iter().map(|path| format!("{}: report", path.display())));
-    let text = print::report(&job, &written);
-    save::report(&job, arguments, &text)?;
-    let to_output = arguments.output.iter().any(|path| path.as_os_str() == "-");
-    if arguments.json {
-        output::result(&save::json_text(&job, arguments.geometry)?)?;
-    } else if !arguments.quiet && to_output {
-        output::remark(&text);
-    } else if !arguments.quiet {
-        output::result(&text)?;
+    let mut outputs = Outputs::prepare(&mut job, arguments)?;
+    let text = print::report(&job, &outputs.written);
+    let text = output::printable(&text);
+    outputs.report(&job, arguments, &text)?;
+    let document = outputs.keep()?;
+    if let Some(document) = document {
+        output::data(&document)?;
+        if !arguments.quiet {
+            output::remark(&text);
+        }
+    } else if arguments.json {
+        output::data(&save::json_text(&job, arguments.geometry)?)?;
+    } else if !arguments.quiet || arguments.report.as_deref().is_some_and(is_standard) {
+        output::text(&text)?;
     }
     Ok(ending(&job, arguments))
 }

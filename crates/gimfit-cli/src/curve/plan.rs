@@ -1,8 +1,8 @@
 //! From arguments to points and options, with all that can be checked before the run.
 
 use crate::arguments::{CurveArguments, KnotRule, MethodChoice, ParameterRule, RuleOrFile};
-use crate::input;
-use anyhow::{bail, ensure};
+use crate::{input, values};
+use anyhow::{anyhow, bail, ensure};
 use gimfit::{CurveOptions, IterationWeight, KnotPlacement, Method, Parameterization};
 use gimfit_io::points::PointTable;
 use std::path::Path;
@@ -25,8 +25,9 @@ impl Plan {
         );
         let weight = weight(&arguments.weight)?;
         let mut table = input::points(&arguments.input)?;
+        ensure_kept_fits_fit(arguments, &table)?;
         if arguments.sort {
-            sort_by_abscissa(&mut table);
+            table.sort_by_abscissa();
         }
         let options = CurveOptions {
             degree: arguments.degree,
@@ -42,6 +43,21 @@ impl Plan {
         };
         Ok(Self { table, options })
     }
+}
+
+/// The files to read, by the argument that names them.
+pub(super) fn inputs(arguments: &CurveArguments) -> Vec<(&str, &Path)> {
+    let mut inputs = vec![("POINTS", arguments.input.points.as_path())];
+    if let Some(RuleOrFile::File(path)) = &arguments.parameters {
+        inputs.push(("--parameters", path));
+    }
+    if let Some(RuleOrFile::File(path)) = &arguments.knots {
+        inputs.push(("--knots", path));
+    }
+    if let Some(path) = weight_file(&arguments.weight) {
+        inputs.push(("--weight", path));
+    }
+    inputs
 }
 
 fn method(arguments: &CurveArguments) -> Method {
@@ -63,10 +79,17 @@ fn weight(text: &str) -> anyhow::Result<IterationWeight> {
     if text == "auto" {
         return Ok(IterationWeight::Auto);
     }
-    if let Ok(omega) = text.parse() {
-        return Ok(IterationWeight::Same(omega));
+    if let Some(path) = weight_file(text) {
+        let words = ["auto".into(), "a number".into()];
+        return Ok(IterationWeight::PerPoint(input::numbers(path, "--weight", &words)?));
     }
-    Ok(IterationWeight::PerPoint(input::numbers(Path::new(text), "--weight")?))
+    let omega = values::number(text).map_err(|error| anyhow!("--weight {text}: {error}"))?;
+    Ok(IterationWeight::Same(omega))
+}
+
+/// The file of weights that `--weight` names, if it is none of its words.
+fn weight_file(text: &str) -> Option<&Path> {
+    (text != "auto" && text.parse::<f64>().is_err()).then(|| Path::new(text))
 }
 
 fn parameterization(
@@ -75,7 +98,9 @@ fn parameterization(
 ) -> anyhow::Result<Option<Parameterization>> {
     let mut values = match (&arguments.parameters, table.abscissa.take()) {
         (_, Some(abscissa)) => abscissa,
-        (Some(RuleOrFile::File(path)), None) => input::numbers(path, "--parameters")?,
+        (Some(RuleOrFile::File(path)), None) => {
+            input::numbers(path, "--parameters", &RuleOrFile::<ParameterRule>::names())?
+        }
         (Some(RuleOrFile::Rule(rule)), None) => {
             ensure!(
                 arguments.period.is_none(),
@@ -102,7 +127,8 @@ fn parameterization(
         let beyond = values.last().is_some_and(|&last| last < closing);
         ensure!(
             period.is_finite() && beyond,
-            "--period {period} is too short: the parameters run from {first} to {}",
+            "{}: --period {period} is too short: the parameters run from {first} to {}",
+            table.source,
             values[values.len() - 1]
         );
         values.push(closing);
@@ -111,8 +137,9 @@ fn parameterization(
         let last = table.coordinates.len().saturating_sub(dimension);
         ensure!(
             table.coordinates[..dimension] == table.coordinates[last..],
-            "a closed curve needs to know at which parameter it returns to its first point: repeat \
-             the first point at the end, with that parameter, or give --period"
+            "{}: a closed curve needs to know at which parameter it returns to its first point: \
+             repeat the first point at the end, with that parameter, or give --period",
+            table.source
         );
     }
     Ok(Some(Parameterization::Given(values)))
@@ -124,24 +151,31 @@ fn knot_placement(choice: &RuleOrFile<KnotRule>) -> anyhow::Result<KnotPlacement
         RuleOrFile::Rule(KnotRule::NotAKnot) => KnotPlacement::NotAKnot,
         RuleOrFile::Rule(KnotRule::AtData) => KnotPlacement::AtData,
         RuleOrFile::Rule(KnotRule::Uniform) => KnotPlacement::Uniform,
-        RuleOrFile::File(path) => KnotPlacement::Given(input::numbers(path, "--knots")?),
+        RuleOrFile::File(path) => {
+            let names = RuleOrFile::<KnotRule>::names();
+            KnotPlacement::Given(input::numbers(path, "--knots", &names)?)
+        }
     })
 }
 
-/// Sorts rows by abscissa; rows of equal abscissa keep their order.
-fn sort_by_abscissa(table: &mut PointTable) {
-    let Some(abscissa) = &table.abscissa else { return };
-    let mut order: Vec<usize> = (0..abscissa.len()).collect();
-    order.sort_by(|&a, &b| abscissa[a].total_cmp(&abscissa[b]));
-    let moved = order.iter().enumerate().filter(|(new, old)| new != *old).count();
-    let dimension = table.dimension();
-    table.coordinates = order
-        .iter()
-        .flat_map(|&row| table.coordinates[row * dimension..][..dimension].to_vec())
-        .collect();
-    table.abscissa = Some(order.iter().map(|&row| abscissa[row]).collect());
-    if let Some(lines) = &mut table.row_lines {
-        *lines = order.iter().map(|&row| lines[row]).collect();
-    }
-    table.notes.push(format!("rows sorted by abscissa; {moved} of {} moved", order.len()));
+/// Most numbers in kept fits: 8 GB.
+const MOST_KEPT: u128 = 1_000_000_000;
+
+/// Refuses more kept fits than memory holds.
+fn ensure_kept_fits_fit(arguments: &CurveArguments, table: &PointTable) -> anyhow::Result<()> {
+    let mut kept = arguments.keep.clone();
+    kept.retain(|iteration| *iteration <= arguments.iterations);
+    kept.sort_unstable();
+    kept.dedup();
+    let numbers = kept.len() as u128 * table.coordinates.len() as u128;
+    ensure!(
+        numbers <= MOST_KEPT,
+        "{}: --keep asks for {} fits of {} points of dimension {}, {numbers} numbers; at most \
+         {MOST_KEPT} are kept: list fewer iterations",
+        table.source,
+        kept.len(),
+        table.rows(),
+        table.dimension()
+    );
+    Ok(())
 }

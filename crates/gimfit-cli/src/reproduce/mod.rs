@@ -52,7 +52,7 @@ pub(crate) fn run(arguments: &ReproduceArguments) -> anyhow::Result<Ending> {
         for reproduction in chosen {
             writeln!(text, "{:<14} {}", reproduction.name, reproduction.line)?;
         }
-        output::result(&text)?;
+        output::text(&text)?;
         return Ok(Ending::Done);
     }
     let mut text = String::new();
@@ -64,7 +64,7 @@ pub(crate) fn run(arguments: &ReproduceArguments) -> anyhow::Result<Ending> {
         summaries += &table.summary(reproduction.name);
         met &= table.agrees();
     }
-    output::result(&(text + &summaries))?;
+    output::text(&(text + &summaries))?;
     Ok(if met { Ending::Done } else { Ending::NotMet })
 }
 

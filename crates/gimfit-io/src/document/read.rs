@@ -1,19 +1,15 @@
 //! Reading a document back, checked.
 
 use super::{Document, Geometry, SurfaceDocument, SurfaceKind};
+use crate::points::{ReadError, input_name, read_input};
 use std::path::Path;
 
 /// A document that cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum DocumentError {
     /// The file cannot be opened or read.
-    #[error("cannot read {name}: {reason}")]
-    Unreadable {
-        /// The file.
-        name: String,
-        /// What the system said.
-        reason: std::io::Error,
-    },
+    #[error(transparent)]
+    Unreadable(ReadError),
     /// It is not JSON, or not of this shape.
     #[error("{name}, line {line}, column {column}: {problem}")]
     Malformed {
@@ -50,15 +46,14 @@ pub fn is_document(bytes: &[u8]) -> bool {
     bytes.trim_ascii_start().first() == Some(&b'{')
 }
 
-/// Reads a document and checks that its geometry can be evaluated.
+/// Reads a document and checks that its geometry can be evaluated; the path `-` means standard
+/// input.
 ///
 /// # Errors
 /// [`DocumentError`], naming the file and the place.
 pub fn read_document(path: &Path) -> Result<Document, DocumentError> {
-    let name = path.display().to_string();
-    let bytes = std::fs::read(path)
-        .map_err(|reason| DocumentError::Unreadable { name: name.clone(), reason })?;
-    parse_document(&bytes, &name)
+    let bytes = read_input(path).map_err(DocumentError::Unreadable)?;
+    parse_document(&bytes, &input_name(path))
 }
 
 /// As [`read_document`], from memory.

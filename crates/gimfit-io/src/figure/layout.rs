@@ -4,6 +4,7 @@ use super::layers::Looks;
 use super::legend;
 use super::notes::Notes;
 use super::plot::Rect;
+use super::range::{InUnits, Scaled};
 use super::scale::Interval;
 use super::style::{self, AXIS_BELOW, AXIS_LEFT, MARGIN};
 use super::svg::Svg;
@@ -49,6 +50,9 @@ pub(crate) struct Layout {
 
 /// Draws the whole figure.
 pub(super) fn curve_figure(figure: &CurveFigure<'_>) -> String {
+    let scaled = Scaled::of(figure);
+    let sequence = scaled.as_ref().map(|scaled| scaled.sequence(figure)).unwrap_or_default();
+    let figure = &InUnits::new(figure, scaled.as_ref(), &sequence);
     let mut notes = Notes::default();
     let main = match figure.dimension {
         2 => Main::Plane(panel_shape::intervals(figure, &mut notes)),

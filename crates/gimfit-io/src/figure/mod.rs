@@ -15,6 +15,7 @@
 //!     caption: "degree 1",
 //!     dimension: 2,
 //!     coordinate_names: &[],
+//!     parameter_name: "parameter",
 //!     closed: false,
 //!     data_points: &points,
 //!     parameters: &parameters,
@@ -50,6 +51,7 @@ pub(crate) mod panel_shape;
 pub(crate) mod panel_space;
 pub(crate) mod plot;
 mod png;
+mod range;
 pub(crate) mod rows;
 pub(crate) mod scale;
 pub(crate) mod style;
@@ -81,6 +83,8 @@ pub struct CurveFigure<'a> {
     pub dimension: usize,
     /// Names of the coordinates; where there is none, one is made up.
     pub coordinate_names: &'a [String],
+    /// Name of the parameter, such as that of a column of abscissae.
+    pub parameter_name: &'a str,
     /// Whether the curve is closed; its control polygon is then drawn closed.
     pub closed: bool,
     /// Data points, `dimension` values each, one after the other.

@@ -3,13 +3,14 @@
 
 use super::extent;
 use super::layers::{self, Layers, Looks};
+use super::message;
 use super::notes::Notes;
 use super::plot::{self, Axis, Rect};
+use super::range::InUnits;
 use super::rows::Rows;
 use super::scale::Scale;
 use super::svg::Svg;
 use super::ticks::Direction;
-use super::{CurveFigure, message};
 
 /// Most coordinates that are drawn.
 const MOST: usize = 12;
@@ -23,12 +24,7 @@ pub(super) fn drawn(dimension: usize) -> usize {
 }
 
 /// Draws all panels into `area`.
-pub(super) fn draw(
-    svg: &mut Svg,
-    area: Rect,
-    figure: &CurveFigure<'_>,
-    notes: &mut Notes,
-) -> Looks {
+pub(super) fn draw(svg: &mut Svg, area: Rect, figure: &InUnits<'_>, notes: &mut Notes) -> Looks {
     let count = drawn(figure.dimension);
     let Some(parameters) = extent::of_parameters(figure).filter(|_| count > 0) else {
         message(svg, area, "no points to draw");
@@ -38,7 +34,7 @@ pub(super) fn draw(
         notes.add(format!("{count} of {} coordinates drawn", figure.dimension));
     }
     let sx = Scale::new(parameters, area.x + 8.0, area.right() - 8.0);
-    let across = Axis::linear(&sx, Direction::Across, false, "parameter");
+    let across = Axis::linear(&sx, Direction::Across, figure.parameter_name, figure.parameter_unit);
     let height = (area.height - GAP * (count - 1) as f64) / count as f64;
     let mut looks = Looks::default();
     for k in 0..count {
@@ -56,7 +52,7 @@ pub(super) fn draw(
 fn draw_one(
     svg: &mut Svg,
     area: Rect,
-    figure: &CurveFigure<'_>,
+    figure: &InUnits<'_>,
     k: usize,
     sx: &Scale,
     across: &Axis,
@@ -68,7 +64,7 @@ fn draw_one(
         return Looks::default();
     };
     let sy = Scale::new(extent::padded(values), area.bottom(), area.y);
-    let upward = Axis::linear(&sy, Direction::Upward, false, &figure.coordinate_name(k));
+    let upward = Axis::linear(&sy, Direction::Upward, &figure.coordinate_name(k), figure.unit(k));
     notes.offset(&[across, &upward]);
     plot::draw_axes(svg, area, across, &upward);
     let places = |parameters: &[f64], rows: Rows<'_>| {

@@ -20,6 +20,9 @@ const MOST_BINS: usize = 700;
 /// Residuals that differ by this factor are drawn on a logarithmic axis.
 const WIDE: f64 = 50.0;
 
+/// So are residuals beyond this size, however alike.
+const HUGE: f64 = 1.0e290;
+
 /// Draws the panel into `area`.
 pub(super) fn draw(svg: &mut Svg, area: Rect, figure: &CurveFigure<'_>, notes: &mut Notes) {
     plot::heading(svg, area, "Error at each point");
@@ -34,7 +37,7 @@ pub(super) fn draw(svg: &mut Svg, area: Rect, figure: &CurveFigure<'_>, notes: &
     } else {
         Scale::new(indices, area.x + 6.0, area.right() - 6.0)
     };
-    let across = Axis::linear(&sx, Direction::Across, true, "index of the point (from 0)");
+    let across = Axis::whole(&sx, Direction::Across, "index of the point (from 0)");
     if values.high <= 0.0 {
         plot::draw_axes(svg, area, &across, &Axis::default());
         message(svg, area, "all errors are 0");
@@ -49,7 +52,8 @@ pub(super) fn draw(svg: &mut Svg, area: Rect, figure: &CurveFigure<'_>, notes: &
     let bars = Bars { sx, half: 0.5 * (made.first().map_or(1, |bin| bin.count) - 1) as f64 };
     let least = residuals.iter().copied().filter(|v| *v > 0.0);
     let least = least.fold(f64::INFINITY, f64::min);
-    let log = (values.high / least > WIDE)
+    // On a logarithmic axis nothing overflows either.
+    let log = (values.high / least > WIDE || values.high > HUGE)
         .then(|| LogScale::around(residuals.iter().copied(), area.bottom() - 5.0, area.y + 5.0))
         .flatten();
     match log {
@@ -67,9 +71,9 @@ pub(super) fn draw(svg: &mut Svg, area: Rect, figure: &CurveFigure<'_>, notes: &
             bars.draw(svg, area, &made, |v| log.at(v));
         }
         None => {
-            let from_zero = Interval { low: 0.0, high: 1.08 * values.high.min(1.0e299) };
+            let from_zero = Interval { low: 0.0, high: 1.08 * values.high };
             let sy = Scale::new(from_zero, area.bottom(), area.y);
-            let upward = Axis::linear(&sy, Direction::Upward, false, "residual");
+            let upward = Axis::linear(&sy, Direction::Upward, "residual", 0);
             plot::draw_axes(svg, area, &across, &upward);
             bars.draw(svg, area, &made, |v| (sy.at(v), false));
         }

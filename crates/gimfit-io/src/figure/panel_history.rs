@@ -34,7 +34,7 @@ pub(crate) fn draw(
     } else {
         Scale::new(iterations, area.x + 8.0, area.right() - 8.0)
     };
-    let across = Axis::linear(&sx, Direction::Across, true, "iteration");
+    let across = Axis::whole(&sx, Direction::Across, "iteration");
     let values = history.iter().flat_map(|h| [h.1, h.2]);
     let Some(log) = LogScale::around(values, area.bottom() - 5.0, area.y + 5.0) else {
         plot::draw_axes(svg, area, &across, &Axis::default());

@@ -5,6 +5,7 @@ use super::extent;
 use super::layers::{self, Layers, Looks};
 use super::notes::Notes;
 use super::plot::{self, Axis, Rect};
+use super::range::InUnits;
 use super::rows::Rows;
 use super::scale::{Interval, Scale, equal_scales};
 use super::svg::Svg;
@@ -32,7 +33,7 @@ pub(crate) fn aspect(shown: &[Interval; 2]) -> f64 {
 pub(super) fn draw(
     svg: &mut Svg,
     area: Rect,
-    figure: &CurveFigure<'_>,
+    figure: &InUnits<'_>,
     shown: Option<[Interval; 2]>,
     notes: &mut Notes,
 ) -> Looks {
@@ -41,8 +42,9 @@ pub(super) fn draw(
         return Looks::default();
     };
     let (sx, sy) = equal_scales(x, y, area.across(), area.upward(), INSET);
-    let horizontal = Axis::linear(&sx, Direction::Across, false, &figure.coordinate_name(0));
-    let upright = Axis::linear(&sy, Direction::Upward, false, &figure.coordinate_name(1));
+    let horizontal =
+        Axis::linear(&sx, Direction::Across, &figure.coordinate_name(0), figure.unit(0));
+    let upright = Axis::linear(&sy, Direction::Upward, &figure.coordinate_name(1), figure.unit(1));
     notes.offset(&[&horizontal, &upright]);
     plot::draw_axes(svg, area, &horizontal, &upright);
     layers_of(figure, sx, sy).draw(svg, area, "shape", 1.0, notes)

@@ -6,6 +6,7 @@ use super::extent;
 use super::layers::{self, Layers, Looks};
 use super::notes::Notes;
 use super::plot::Rect;
+use super::range::InUnits;
 use super::rows::Rows;
 use super::scale::{Interval, Scale, equal_scales};
 use super::svg::Svg;
@@ -70,7 +71,7 @@ impl Scene {
 pub(super) fn draw(
     svg: &mut Svg,
     area: Rect,
-    figure: &CurveFigure<'_>,
+    figure: &InUnits<'_>,
     scene: Option<Scene>,
     notes: &mut Notes,
 ) -> Looks {
@@ -80,7 +81,7 @@ pub(super) fn draw(
     };
     let stage = Stage::new(area, scene);
     let names = [0, 1, 2].map(|k| figure.coordinate_name(k));
-    stage.draw_box(svg, &names, true, notes);
+    stage.draw_box(svg, &names, [0, 1, 2].map(|k| figure.unit(k)), true, notes);
     let places = |rows: Rows<'_>| rows.iter().map(|p| stage.place(p)).collect::<Vec<_>>();
     let layers = Layers {
         data: places(figure.data()),
@@ -126,17 +127,19 @@ impl Stage {
         if self.view.sees_high_side(k) == near { self.sides[k].high } else { self.sides[k].low }
     }
 
-    /// Draws axes named `names` and the edges of the far sides. Offsets of
-    /// labels are written `beside` the names, or else in the notes.
+    /// Draws axes named `names`, in units of ten to the power of `units`, and
+    /// the edges of the far sides. Offsets of labels are written `beside` the
+    /// names, or else in the notes.
     pub(crate) fn draw_box(
         &self,
         svg: &mut Svg,
         names: &[String; 3],
+        units: [i32; 3],
         beside: bool,
         notes: &mut Notes,
     ) {
         for k in 0..3 {
-            let common = self.draw_axis(svg, k, &names[k], beside);
+            let common = self.draw_axis(svg, k, (&names[k], units[k]), beside);
             match common {
                 Some(_) if beside => notes.offset_of_labels(),
                 Some(common) => notes.add(format!("labels of the {} axis {common}", names[k])),
@@ -177,16 +180,22 @@ impl Stage {
         }
     }
 
-    /// Draws grid, labels and name; returns what all labels have in common if
-    /// that is an offset.
-    fn draw_axis(&self, svg: &mut Svg, k: usize, name: &str, beside: bool) -> Option<String> {
+    /// Draws grid, labels and name, with its unit; returns what all labels
+    /// have in common if that is an offset.
+    fn draw_axis(
+        &self,
+        svg: &mut Svg,
+        k: usize,
+        (name, unit): (&str, i32),
+        beside: bool,
+    ) -> Option<String> {
         let (next, last) = ((k + 1) % 3, (k + 2) % 3);
         let (near_next, near_last) = self.labelled_edge(k);
         let (from, to) = self.edge(k, near_next, near_last);
         let length = (to.0 - from.0).hypot(to.1 - from.1);
         let direction = if k == 2 { Direction::Upward } else { Direction::Across };
         let values = self.sides[k].opened();
-        let ticks = ticks::linear_ticks(values, length, direction, false);
+        let ticks = ticks::linear_ticks(values, length, direction, unit);
         let mut widest = 0.0_f64;
         let outward = self.outward(from, to);
         for (value, label) in &ticks.marks {

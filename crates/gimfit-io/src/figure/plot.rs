@@ -43,15 +43,30 @@ pub(crate) struct Axis {
 }
 
 impl Axis {
-    /// An axis with the ticks of `scale`, named `name` and, in brackets, what
-    /// all labels have in common.
+    /// An axis with the ticks of `scale`, whose values are in units of ten to
+    /// the power of `unit`, named `name` and, in brackets, what all labels have
+    /// in common.
     pub(crate) fn linear(
         scale: &super::scale::Scale,
         direction: super::ticks::Direction,
-        whole: bool,
+        name: &str,
+        unit: i32,
+    ) -> Self {
+        let ticks = super::ticks::linear_ticks(scale.values(), scale.length(), direction, unit);
+        Self::with_ticks(scale, ticks, name)
+    }
+
+    /// As [`Axis::linear`], with labels at whole numbers only.
+    pub(crate) fn whole(
+        scale: &super::scale::Scale,
+        direction: super::ticks::Direction,
         name: &str,
     ) -> Self {
-        let ticks = super::ticks::linear_ticks(scale.values(), scale.length(), direction, whole);
+        let ticks = super::ticks::whole_ticks(scale.values(), scale.length(), direction);
+        Self::with_ticks(scale, ticks, name)
+    }
+
+    fn with_ticks(scale: &super::scale::Scale, ticks: super::ticks::Ticks, name: &str) -> Self {
         let name = match (name.is_empty(), ticks.common.is_empty()) {
             (_, true) => name.to_owned(),
             (true, false) => ticks.common.clone(),

@@ -49,6 +49,7 @@ impl Sample {
             caption: "made up, 10⁻³",
             dimension: self.dimension,
             coordinate_names: &self.names,
+            parameter_name: "time",
             closed: true,
             data_points: &self.data,
             parameters: &self.parameters,
@@ -241,4 +242,27 @@ fn endless_text_is_cut() {
     figure.caption = &long;
     figure.coordinate_names = &names;
     assert!(checked(&figure).len() < 60_000);
+}
+
+#[test]
+fn a_figure_of_huge_values_differs_in_its_labels_alone() {
+    for dimension in 1..=4 {
+        let plain = Sample::circle(dimension, 30);
+        let mut huge = Sample::circle(dimension, 30);
+        for x in huge.data.iter_mut().chain(&mut huge.control).chain(&mut huge.parameters) {
+            *x *= 1.0e307;
+        }
+        let marks = |sample: &Sample| -> Vec<String> {
+            let svg = checked(&sample.figure());
+            let parsed = roxmltree::Document::parse(&svg).unwrap();
+            parsed.descendants().filter_map(|n| n.attribute("d")).map(str::to_owned).collect()
+        };
+        assert_eq!(marks(&plain), marks(&huge), "dimension {dimension}");
+        assert!(huge.svg().contains("307"), "dimension {dimension}");
+    }
+}
+
+#[test]
+fn a_graph_over_the_parameter_has_its_name() {
+    assert!(Sample::circle(1, 30).svg().contains(">time<"));
 }

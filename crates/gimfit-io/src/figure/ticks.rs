@@ -68,29 +68,46 @@ pub(crate) enum Direction {
     Upward,
 }
 
-/// Ticks for `values` on an axis `length` long, as many as fit with room.
-///
-/// With `whole`, only whole numbers are labelled.
+/// Ticks for `values`, in units of ten to the power of `unit`, on an axis
+/// `length` long, as many as fit with room.
 pub(crate) fn linear_ticks(
     values: Interval,
     length: f64,
     direction: Direction,
-    whole: bool,
+    unit: i32,
 ) -> Ticks {
+    ticks_for(values, length, direction, Labels { whole: false, unit })
+}
+
+/// Ticks at whole numbers only.
+pub(super) fn whole_ticks(values: Interval, length: f64, direction: Direction) -> Ticks {
+    ticks_for(values, length, direction, Labels { whole: true, unit: 0 })
+}
+
+/// What labels say of their positions.
+#[derive(Clone, Copy, Debug)]
+struct Labels {
+    /// Whether only whole numbers are labelled.
+    whole: bool,
+    /// The unit of the positions, as a power of ten.
+    unit: i32,
+}
+
+fn ticks_for(values: Interval, length: f64, direction: Direction, labels: Labels) -> Ticks {
     let wanted = match direction {
         // Long axes need more labels, but not in proportion.
         Direction::Across => 0.35 * length.sqrt(),
         Direction::Upward => length / 42.0,
     };
     let mut step = Step::at_least(values.span() / wanted.max(1.5));
-    let mut ticks = fitting(values, length, direction, whole, &mut step);
+    let mut ticks = fitting(values, length, direction, labels, &mut step);
     // One label tells no scale: finer steps may still fit.
     for _ in 0..2 {
         if ticks.marks.len() >= 2 {
             break;
         }
         let mut finer = Step::at_least(0.3 * step.size());
-        ticks = fitting(values, length, direction, whole, &mut finer);
+        ticks = fitting(values, length, direction, labels, &mut finer);
         step = finer;
     }
     ticks
@@ -101,20 +118,20 @@ fn fitting(
     values: Interval,
     length: f64,
     direction: Direction,
-    whole: bool,
+    labels: Labels,
     step: &mut Step,
 ) -> Ticks {
-    if whole && step.exponent < 0 {
+    if labels.whole && step.exponent < 0 {
         *step = Step { multiple: 1, exponent: 0 };
     }
-    let mut ticks = ticks_with(values, *step, whole);
+    let mut ticks = ticks_with(values, *step, labels);
     // Each step is at least twice the last, so few tries leave one label.
     for _ in 0..16 {
         if fits(&ticks, values, length, direction) {
             break;
         }
         *step = step.next();
-        ticks = ticks_with(values, *step, whole);
+        ticks = ticks_with(values, *step, labels);
     }
     ticks
 }
@@ -134,22 +151,24 @@ fn fits(ticks: &Ticks, values: Interval, length: f64, direction: Direction) -> b
     })
 }
 
-fn ticks_with(values: Interval, step: Step, whole: bool) -> Ticks {
+fn ticks_with(values: Interval, step: Step, labels: Labels) -> Ticks {
     let size = step.size();
     let far = values.low.abs().max(values.high.abs()) / size > MOST_STEPS_FROM_ZERO;
-    let (offset, offset_text) = if far { offset_near(values) } else { (0.0, String::new()) };
+    let (offset, offset_text) =
+        if far { offset_near(values, labels.unit) } else { (0.0, String::new()) };
     let first = ((values.low - offset) / size - 1.0e-6).ceil() as i64;
     let last = ((values.high - offset) / size + 1.0e-6).floor() as i64;
     // A broken interval must not make a long loop.
     let last = last.min(first.saturating_add(60));
     let largest = first.unsigned_abs().max(last.unsigned_abs()) * step.multiple as u64;
-    let order = step.exponent + largest.max(1).ilog10() as i32;
-    let longest = decimal(first.min(-1) * step.multiple, step.exponent);
+    let exponent = step.exponent + labels.unit;
+    let order = exponent + largest.max(1).ilog10() as i32;
+    let longest = decimal(first.min(-1) * step.multiple, exponent);
     let short = (-3..=4).contains(&order) && longest.chars().count() <= LONGEST_LABEL;
     // Counts are read best in full.
-    let factor = if short || (whole && order <= 7) { 0 } else { order };
+    let factor = if short || (labels.whole && order <= 7) { 0 } else { order };
     let marks = (first..=last)
-        .map(|k| (offset + k as f64 * size, decimal(k * step.multiple, step.exponent - factor)))
+        .map(|k| (offset + k as f64 * size, decimal(k * step.multiple, exponent - factor)))
         .collect();
     let mut common = String::new();
     if factor != 0 {
@@ -166,7 +185,7 @@ fn ticks_with(values: Interval, step: Step, whole: bool) -> Ticks {
 }
 
 /// A round value near the centre of `values`, and how to say that it is added.
-fn offset_near(values: Interval) -> (f64, String) {
+fn offset_near(values: Interval, unit: i32) -> (f64, String) {
     let centre = values.centre();
     // The offset is a multiple of a power of ten above the span, hence of
     // each step too.
@@ -174,7 +193,7 @@ fn offset_near(values: Interval) -> (f64, String) {
     let scientific = format!("{centre:.digits$e}");
     let offset: f64 = scientific.parse().unwrap_or(centre);
     let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
-    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let exponent = exponent.parse().unwrap_or(0) + unit;
     let magnitude = if (-4..15).contains(&exponent) {
         let places = (digits as i32 - exponent).max(0) as usize;
         let digits = format!("{:.places$}", offset.abs());
@@ -238,7 +257,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn ticks(low: f64, high: f64) -> Ticks {
-        linear_ticks(Interval { low, high }, 600.0, Direction::Across, false)
+        linear_ticks(Interval { low, high }, 600.0, Direction::Across, 0)
     }
 
     fn labels(low: f64, high: f64) -> Vec<String> {
@@ -271,9 +290,19 @@ mod tests {
     }
 
     #[test]
+    fn labels_of_positions_in_units_say_the_values() {
+        let across = Direction::Across;
+        let plain = linear_ticks(Interval { low: 0.0, high: 3.0e8 }, 600.0, across, 0);
+        let large = linear_ticks(Interval { low: 0.0, high: 3.0e8 }, 600.0, across, 300);
+        assert_eq!((plain.marks, large.common.as_str()), (large.marks, "×10³⁰⁸"));
+        let far = linear_ticks(Interval { low: 5.0 - 1e-9, high: 5.0 + 1e-9 }, 600.0, across, 300);
+        assert_eq!(far.common, "×10²⁹¹ + 5×10³⁰⁰");
+    }
+
+    #[test]
     fn whole_axes_have_whole_labels() {
         let values = Interval { low: 0.0, high: 1.0 };
-        let few = linear_ticks(values, 300.0, Direction::Across, true);
+        let few = whole_ticks(values, 300.0, Direction::Across);
         let shown: Vec<_> = few.marks.iter().map(|m| m.1.as_str()).collect();
         assert_eq!(shown, ["0", "1"]);
     }
@@ -301,7 +330,7 @@ mod tests {
             let span = 10.0_f64.powi(power) * 10.0_f64.powf(relative);
             let values = Interval { low, high: low + span }.opened();
             let direction = if upward { Direction::Upward } else { Direction::Across };
-            let made = linear_ticks(values, length, direction, false);
+            let made = linear_ticks(values, length, direction, 0);
             prop_assert!(made.marks.len() <= 60);
             prop_assert!(length < 200.0 || !made.marks.is_empty());
             prop_assert!(fits(&made, values, length, direction));

@@ -70,7 +70,7 @@ pub(super) fn read(
     mut notes: Vec<String>,
 ) -> Result<PointGrid, ReadError> {
     // The reader of points finds the same layout and notes it.
-    let layout = layout::find(rows, source, &mut Vec::new())?;
+    let layout = layout::find(rows, source, &options.for_points(), &mut Vec::new())?;
     let pair = pair(&layout, source, options)?;
     if pair.is_none() && options.shape.is_none() {
         let points = count(rows)? - usize::from(layout.header.is_some());

@@ -250,6 +250,7 @@ fn table(
         column_names: selection.coordinate_names(&names),
         coordinates,
         row_lines: Some(pairs.iter().map(|pair| pair.line).collect()),
+        row_positions: None,
         notes,
         abscissa,
         abscissa_name: selection.abscissa_name(&names),

@@ -73,9 +73,16 @@ pub(crate) fn require_comma(
         return Err(ambiguous(source, layout, &comma, &why));
     }
     if all_group && rows.separator != Delimiter::Semicolon {
-        let why = "its comma is a decimal mark or groups thousands; write decimal points, or name \
-                   the mark with --decimal comma";
-        return Err(ambiguous(source, layout, &comma, why));
+        // With decimal commas, commas are no longer taken for separators unless named.
+        let separator = match rows.separator {
+            Delimiter::Comma => " --delimiter comma",
+            _ => "",
+        };
+        let why = format!(
+            "its comma is a decimal mark or groups thousands; write decimal points, or name the \
+             mark with --decimal comma{separator}"
+        );
+        return Err(ambiguous(source, layout, &comma, &why));
     }
     notes.push(format!(
         "The comma is read as the decimal mark (first in \"{}\" on line {}).",

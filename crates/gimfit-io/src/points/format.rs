@@ -66,6 +66,14 @@ fn read_text(
         );
         return Err(ReadError::file(source, problem));
     }
+    if options.format.is_none() && is_json(text.as_bytes()) {
+        let problem = Problem::Malformed(
+            "the content is JSON, not points; export the points as CSV first, or give a document \
+             of gimfit to gimfit evaluate"
+                .to_owned(),
+        );
+        return Err(ReadError::file(source, problem));
+    }
     if let Some(likelihood) = likelihood
         && let Some(table) = airfoil::read(&text, source, likelihood, options, &notes)?
     {
@@ -107,6 +115,18 @@ pub(crate) fn is_markup(bytes: &[u8]) -> bool {
     let start = body.trim_ascii_start();
     start.first() == Some(&b'<')
         && start.get(1).is_some_and(|b| b.is_ascii_alphabetic() || matches!(b, b'?' | b'!'))
+}
+
+/// Whether the content opens as a JSON list or object does. The name of a column in brackets is
+/// neither.
+fn is_json(bytes: &[u8]) -> bool {
+    let start = bytes.trim_ascii_start();
+    let next = start.get(1..).unwrap_or_default().trim_ascii_start().first();
+    match (start.first(), next) {
+        (Some(b'['), Some(next)) => matches!(next, b'[' | b'{' | b']' | b'"' | b'-' | b'0'..=b'9'),
+        (Some(b'{'), Some(next)) => matches!(next, b'"' | b'}'),
+        _ => false,
+    }
 }
 
 fn names_gpx(bytes: &[u8]) -> bool {
@@ -162,6 +182,18 @@ mod tests {
     fn markup_that_is_not_gpx_is_refused() {
         let error = read_as(b"<!DOCTYPE html><html></html>", None).unwrap_err();
         assert!(error.to_string().contains("without a gpx element"), "{error}");
+    }
+
+    #[test]
+    fn json_is_refused_and_a_name_in_brackets_is_not() {
+        for text in ["[1,2]", " [[1,2],[3,4]]\n", "[\n{\"x\":1}]", "{\"x\": [1,2]}", "{}", "[]"] {
+            for extension in ["json", "csv", ""] {
+                let error = read_as(text.as_bytes(), Some(extension)).unwrap_err();
+                assert!(error.to_string().contains("is JSON"), "{text}: {error}");
+            }
+        }
+        let table = read_as(b"[m],[s]\n1,2\n3,4\n", Some("csv")).unwrap();
+        assert_eq!(table.column_names, ["[m]", "[s]"]);
     }
 
     #[test]

@@ -326,6 +326,7 @@ fn table(
         column_names: selection.coordinate_names(&names),
         coordinates,
         row_lines: Some(points.iter().map(|point| point.line).collect()),
+        row_positions: None,
         notes,
         abscissa,
         abscissa_name: selection.abscissa_name(&names),

@@ -3,9 +3,9 @@
 use std::ops::ControlFlow;
 
 use super::columns::MOST_COLUMNS;
-use super::error::{Problem, ReadError, column_name, counted, list};
+use super::error::{Problem, ReadError, column_name, counted, list, shortened};
 use super::number::{is_text, looks_numeric};
-use super::options::Delimiter;
+use super::options::{ColumnChoice, Delimiter, ReadOptions};
 use super::rows::Rows;
 
 /// The shape of a table.
@@ -46,6 +46,7 @@ impl Row {
 pub(crate) fn find(
     rows: &Rows<'_>,
     source: &str,
+    options: &ReadOptions,
     notes: &mut Vec<String>,
 ) -> Result<Layout, ReadError> {
     let mut first_rows = first_two(rows, source)?.into_iter();
@@ -55,6 +56,7 @@ pub(crate) fn find(
     if !is_header(&first, first_rows.as_slice().first()) {
         return Ok(without_header(&first, rows.separator, notes));
     }
+    refuse_mixed(&first, first_rows.as_slice().first(), source, options)?;
     let second = first_rows
         .next()
         .ok_or_else(|| no_rows(format!("there is only line {}, a header", first.line)))?;
@@ -76,6 +78,38 @@ fn is_header(first: &Row, second: Option<&Row>) -> bool {
             .all(|(above, below)| !is_text(above) || is_text(below))
     });
     !(numbers_too && labels_again)
+}
+
+/// A row of text and numbers may be a header with years in it, or data with a cell mistyped.
+/// Taking it for the one would drop a point silently in the other case, so it is a header only
+/// where a column is asked for by a name in it.
+fn refuse_mixed(
+    first: &Row,
+    second: Option<&Row>,
+    source: &str,
+    options: &ReadOptions,
+) -> Result<(), ReadError> {
+    let number = first.cells.iter().find(|cell| looks_numeric(cell));
+    let text = first.cells.iter().position(|cell| is_text(cell));
+    let (Some(number), Some(at)) = (number, text) else { return Ok(()) };
+    // Rows of other lengths are refused for that, with advice that suits a title.
+    let alike = second.is_none_or(|second| second.cells.len() == first.cells.len());
+    let asked = options.columns.iter().flatten().chain(&options.abscissa).any(|choice| {
+        matches!(choice, ColumnChoice::Name(name)
+            if first.cells.iter().any(|cell| is_text(cell) && cell.eq_ignore_ascii_case(name)))
+    });
+    if asked || !alike {
+        return Ok(());
+    }
+    let problem = Problem::NotANumber {
+        cell: shortened(&first.cells[at]),
+        advice: format!(
+            "the row is data with a cell to correct, since \"{}\" is a number, or a header: then \
+             put # before it, or ask for a column by its name with --columns",
+            shortened(number)
+        ),
+    };
+    Err(ReadError::line(source, first.line, problem).in_column(at, &[]))
 }
 
 fn without_header(first: &Row, separator: Delimiter, notes: &mut Vec<String>) -> Layout {

@@ -51,6 +51,21 @@ pub fn read_points(path: &Path, options: &ReadOptions) -> Result<PointTable, Rea
     read_points_from(&bytes, &source, input::extension(path).as_deref(), options)
 }
 
+/// Reads all bytes of the file at `path`, and no more than any reader takes; the path `-` means
+/// standard input.
+///
+/// # Errors
+/// A file that cannot be read, or is too long.
+pub fn read_input(path: &Path) -> Result<Vec<u8>, ReadError> {
+    input::read_bytes(path, &input::source_name(path))
+}
+
+/// How messages name the input at `path`: as it is given, or "standard input".
+#[must_use]
+pub fn input_name(path: &Path) -> String {
+    input::source_name(path)
+}
+
 /// Reads points from bytes. `source` names them in messages; `extension` is
 /// the ending of the file's name, with or without its dot, where there is one.
 pub fn read_points_from(

@@ -65,6 +65,7 @@ pub(super) fn read(
         column_names: selection.coordinate_names(&names),
         coordinates,
         row_lines: None,
+        row_positions: None,
         notes,
         abscissa,
         abscissa_name: selection.abscissa_name(&names),

@@ -20,6 +20,9 @@ pub struct PointTable {
     /// The line of each row in the file, from 1; `None` for binary files.
     /// Lines past `u32::MAX` are given as `u32::MAX`.
     pub row_lines: Option<Vec<u32>>,
+    /// The position of each row in the file, from 0; `None` while the rows are
+    /// in the order of the file.
+    pub row_positions: Option<Vec<usize>>,
     /// Every choice made while reading, one sentence each.
     pub notes: Vec<String>,
     /// The column asked for as abscissa, one finite number per row.
@@ -47,8 +50,33 @@ impl PointTable {
     pub fn row_name(&self, row: usize) -> String {
         match self.row_lines.as_ref().and_then(|lines| lines.get(row)) {
             Some(line) => format!("line {line}"),
-            None => format!("point {row} (counted from 0)"),
+            None => {
+                let position = self.row_positions.as_ref().and_then(|rows| rows.get(row));
+                format!("point {} (counted from 0)", position.unwrap_or(&row))
+            }
         }
+    }
+
+    /// Sorts the rows by their abscissa, if there is one, and notes how many
+    /// moved; rows of equal abscissa keep their order.
+    pub fn sort_by_abscissa(&mut self) {
+        let Some(abscissa) = &self.abscissa else { return };
+        let mut order: Vec<usize> = (0..abscissa.len()).collect();
+        order.sort_by(|&a, &b| abscissa[a].total_cmp(&abscissa[b]));
+        let moved = order.iter().enumerate().filter(|(new, old)| new != *old).count();
+        let dimension = self.dimension();
+        let coordinates = order
+            .iter()
+            .flat_map(|&row| &self.coordinates[row * dimension..][..dimension])
+            .copied()
+            .collect();
+        self.coordinates = coordinates;
+        self.abscissa = Some(order.iter().map(|&row| abscissa[row]).collect());
+        if let Some(lines) = &mut self.row_lines {
+            *lines = order.iter().map(|&row| lines[row]).collect();
+        }
+        self.notes.push(format!("rows sorted by abscissa; {moved} of {} moved", order.len()));
+        self.row_positions = Some(order);
     }
 }
 

@@ -104,8 +104,39 @@ fn a_missing_value_in_the_first_row_makes_no_header() {
     assert!(fault("2020-01-02,1\n2020-01-03,2\n").contains("with --columns 2"));
     let labelled = read_with("A,1\nB,2\n", &asked(&["2"], None)).unwrap();
     assert_eq!(labelled.coordinates, [1.0, 2.0]);
-    let years = read_with("name,2019\n1,2\n", &ReadOptions::default()).unwrap();
-    assert!(years.notes.iter().any(|n| n.contains("although it holds numbers")));
+}
+
+#[test]
+fn a_first_row_of_text_and_numbers_is_a_header_only_by_a_name_asked_for() {
+    for text in ["1,2O\n2,3\n3,5\n", "1,abc\n2,3\n", "name,2019\n1,2\n", "1,2O\n"] {
+        let error = fault(text);
+        assert!(error.starts_with("f.csv, line 1, column "), "{error}");
+        assert!(error.contains("is not a number") && error.contains("put # before"), "{error}");
+    }
+    assert!(fault("1,2O\n2,3\n").contains("column 2: \"2O\""));
+    assert!(read_with("1,2O\n2,3\n", &asked(&["1", "2"], None)).is_err());
+    for options in [asked(&["name", "2"], None), asked(&[], Some("Name"))] {
+        let years = read_with("name,2019\n1,2\n", &options).unwrap();
+        assert!(years.notes.iter().any(|n| n.contains("although it holds numbers")));
+    }
+    assert!(read("#name,2019\n1,2\n").is_ok());
+}
+
+#[test]
+fn the_advice_on_a_doubtful_comma_works() {
+    for text in ["x,y\n\"1,234\",\"5\"\n", "1,234 5,678\n2,345 6,789\n", "\"1,234\",5\n"] {
+        let error = fault(text);
+        let (_, advice) = error.split_once("name the mark with ").unwrap();
+        let mut options = ReadOptions::default();
+        let words: Vec<&str> = advice.split(' ').collect();
+        for pair in words.chunks(2) {
+            match pair[0] {
+                "--decimal" => options.decimal = Some(pair[1].parse().unwrap()),
+                _ => options.delimiter = Some(pair[1].parse().unwrap()),
+            }
+        }
+        assert_eq!(read_with(text, &options).unwrap().coordinates[0], 1.234, "{text:?}");
+    }
 }
 
 #[test]

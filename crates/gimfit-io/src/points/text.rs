@@ -30,7 +30,7 @@ pub(crate) fn read(
 ) -> Result<PointTable, ReadError> {
     let separator = separator::find(text, extension, options);
     let rows = Rows::new(text, separator, source)?;
-    let layout = layout::find(&rows, source, &mut notes)?;
+    let layout = layout::find(&rows, source, options, &mut notes)?;
     let xyz = match options.format {
         Some(format) => format == FormatChoice::Xyz,
         None => extension == "xyz",
@@ -74,6 +74,7 @@ pub(crate) fn read(
         column_names: selection.coordinate_names(&layout.names),
         coordinates: columns.coordinates,
         row_lines: Some(columns.lines),
+        row_positions: None,
         notes,
         abscissa: columns.abscissa,
         abscissa_name: selection.abscissa_name(&layout.names),

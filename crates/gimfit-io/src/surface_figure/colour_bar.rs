@@ -59,7 +59,7 @@ impl ErrorScale {
         match self {
             Self::Linear(scale) => {
                 let ticks =
-                    ticks::linear_ticks(scale.values(), scale.length(), Direction::Upward, false);
+                    ticks::linear_ticks(scale.values(), scale.length(), Direction::Upward, 0);
                 let marks = ticks.marks.into_iter().map(|(v, label)| (scale.at(v), label));
                 (marks.collect(), ticks.common)
             }

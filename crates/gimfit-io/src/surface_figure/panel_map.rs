@@ -96,8 +96,8 @@ fn draw_axes(svg: &mut Svg, map: Rect, errors: &Errors<'_>) {
     let across = Scale::new(ends(errors.columns), map.x, map.right());
     // The first row at the top, as tables and files have it.
     let down = Scale::new(ends(errors.rows), map.y, map.bottom());
-    let horizontal = Axis::linear(&across, Direction::Across, true, "column (from 0)");
-    let upright = Axis::linear(&down, Direction::Upward, true, "row (from 0)");
+    let horizontal = Axis::whole(&across, Direction::Across, "column (from 0)");
+    let upright = Axis::whole(&down, Direction::Upward, "row (from 0)");
     plot::draw_axes(svg, map, &horizontal, &upright);
     for (at, _) in &horizontal.marks {
         svg.line((*at, map.bottom()), (*at, map.bottom() + 3.0), style::FRAME, 1.0);

@@ -102,8 +102,8 @@ pub(super) fn draw(
         }
         Main::Plane([x, y]) => {
             let (sx, sy) = equal_scales(x, y, area.across(), area.upward(), INSET);
-            let horizontal = Axis::linear(&sx, Direction::Across, false, &names[0]);
-            let upright = Axis::linear(&sy, Direction::Upward, false, &names[1]);
+            let horizontal = Axis::linear(&sx, Direction::Across, &names[0], 0);
+            let upright = Axis::linear(&sy, Direction::Upward, &names[1], 0);
             notes.offset(&[&horizontal, &upright]);
             plot::draw_axes(svg, area, &horizontal, &upright);
             // Seen from above, the picture itself is the space.
@@ -115,7 +115,7 @@ pub(super) fn draw(
         }
         Main::Space(scene) => {
             let stage = Stage::new(area, scene);
-            stage.draw_box(svg, &names, false, notes);
+            stage.draw_box(svg, &names, [0; 3], false, notes);
             let place = |p: &Point| {
                 // Beyond this, squares of what strays would overflow.
                 let turned = stage.view.turned(p).map(|value| value.clamp(-1.0e6, 1.0e6));

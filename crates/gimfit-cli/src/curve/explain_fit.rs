@@ -1,17 +1,21 @@
-//! Errors of the library in the words of the command line: rows by their line, options by name.
+//! Errors of a fit in the words of the command line: rows by their line, options by name.
 
-use crate::arguments::CurveArguments;
+use crate::arguments::{CurveArguments, RuleOrFile};
+use crate::explain::explain;
 use anyhow::anyhow;
 use gimfit::Error;
-use gimfit_io::points::PointTable;
+use gimfit_io::points::{PointTable, input_name};
 
 /// Rewrites an error that names points so that it names the file and its rows.
-pub(super) fn explain(
+pub(super) fn explain_fit(
     error: Error,
     table: &PointTable,
     arguments: &CurveArguments,
 ) -> anyhow::Error {
-    let row = |index: usize| table.row_name(index);
+    // Given parameters may be one more than the points.
+    let row = |index: usize| {
+        if index < table.rows() { table.row_name(index) } else { "the closing point".into() }
+    };
     let source = &table.source;
     match error {
         Error::RepeatedPoints { first, second, others } => {
@@ -20,8 +24,11 @@ pub(super) fn explain(
                 1 => " (and one more repetition)".into(),
                 _ => format!(" (and {others} more repetitions)"),
             };
-            let what = if arguments.input.abscissa.is_some() { "the abscissa of" } else { "" };
-            let what = if what.is_empty() { String::new() } else { format!("{what} ") };
+            let what = match &arguments.parameters {
+                _ if arguments.input.abscissa.is_some() => "the abscissa of ",
+                Some(RuleOrFile::File(_)) => "the parameter of ",
+                _ => "",
+            };
             anyhow!(
                 "{source}: {} repeats {what}{}{more}; choose what to do with repeated points: \
                  --duplicates drop keeps the first of each run, --duplicates merge takes their mean",
@@ -37,6 +44,15 @@ pub(super) fn explain(
             row(second)
         ),
         Error::ParametersNotIncreasing { index, value, previous } => {
+            if let Some(RuleOrFile::File(path)) = &arguments.parameters {
+                return anyhow!(
+                    "{}: number {} is {value} and does not exceed {previous} before it; \
+                     parameters must increase (it belongs to {} of {source})",
+                    input_name(path),
+                    index + 1,
+                    row(index)
+                );
+            }
             let hint =
                 if arguments.input.abscissa.is_some() { "; --sort sorts the rows" } else { "" };
             anyhow!(
@@ -50,18 +66,14 @@ pub(super) fn explain(
              function vanishes; --knots averaged always fits",
             row(point)
         ),
-        Error::NotFinite { point, coordinate, value } => anyhow!(
-            "{source}, {}: coordinate {} is {value}; every coordinate must be finite",
-            row(point),
-            coordinate + 1
-        ),
         Error::TooFewPoints { points, degree, needed } => anyhow!(
-            "{source}: {points} distinct points are too few for degree {degree}, which needs {needed}; \
-             lower it with --degree"
+            "{source}: {points} distinct {} too few for degree {degree}, which needs {needed}; \
+             lower it with --degree",
+            if points == 1 { "point is" } else { "points are" }
         ),
         Error::AllPointsEqual { points } => {
             anyhow!("{source}: all {points} points are equal; there is no curve to fit")
         }
-        other => anyhow!("{source}: {other}"),
+        other => explain(other, table),
     }
 }

@@ -1,0 +1,215 @@
+//! What can be typed after `gimfit surface`. Choices for the two directions are given as one, for
+//! both, or as two with a comma between: u (rows), then v (columns).
+
+use crate::arguments::{KnotRule, MethodChoice};
+use clap::{Args, ValueEnum};
+use gimfit_io::grids::{GridFormatChoice, parse_shape};
+use gimfit_io::points::{ColumnChoice, DecimalMark, Delimiter, UnknownChoice};
+use std::path::PathBuf;
+use std::str::FromStr;
+
+#[derive(Debug, Args)]
+#[command(after_help = "Exit status: 0 done; 1 a residual was not reached (the best fit is written \
+all the same); 2 wrong usage or input, nothing written; 130 interrupted before there was a fit.
+
+Examples:
+  gimfit surface heights.csv -o heights.svg
+  gimfit surface hull.csv --degree 3,2 --parameters centripetal -o hull.json -o hull.png
+  gimfit surface torus.csv --closed both --method pia --keep 0,3,15 -o torus.svg
+  gimfit surface peaks.csv --knots at-data --per-direction")]
+pub(crate) struct SurfaceArguments {
+    /// File of points in rows and columns: lines of row,column,x,y,z or u,v,x,y,z, a matrix of
+    /// heights, an ESRI ASCII grid, NumPy .npy; - for standard input
+    #[arg(value_name = "GRID")]
+    pub(crate) grid: PathBuf,
+
+    /// File to write; by its ending a document (.json), control points or samples (.csv), or a
+    /// picture (.svg, .png). May be given several times; - writes the document to standard output
+    #[arg(short, long, value_name = "FILE", help_heading = "Writing")]
+    pub(crate) output: Vec<PathBuf>,
+
+    /// Rows and columns of a file that does not tell them, such as 20x30
+    #[arg(long, value_name = "MxN", value_parser = parse_shape, help_heading = "Reading")]
+    pub(crate) shape: Option<(usize, usize)>,
+
+    /// Columns of the file to take as coordinates, by name or by number from 1
+    #[arg(long, value_name = "LIST", value_delimiter = ',', help_heading = "Reading")]
+    pub(crate) columns: Vec<ColumnChoice>,
+
+    /// The two columns of the file that number, or parametrize, rows and columns of the grid
+    #[arg(long, value_name = "ROW,COLUMN", value_delimiter = ',', num_args = 2, help_heading = "Reading")]
+    pub(crate) index_columns: Vec<ColumnChoice>,
+
+    /// Whether the first row and column of a matrix are abscissae rather than heights
+    #[arg(long, value_name = "yes|no", value_parser = yes_or_no, help_heading = "Reading")]
+    pub(crate) axes: Option<bool>,
+
+    /// Format of the file, where its ending and its content mislead: lines, matrix, esri, npy
+    #[arg(long, value_name = "FORMAT", help_heading = "Reading")]
+    pub(crate) format: Option<GridFormatChoice>,
+
+    /// What separates the cells of a text file (comma, semicolon, tab, blanks)
+    #[arg(long, value_name = "SEPARATOR", help_heading = "Reading")]
+    pub(crate) delimiter: Option<Delimiter>,
+
+    /// Decimal mark of a text file: point or comma
+    #[arg(long, value_name = "MARK", help_heading = "Reading")]
+    pub(crate) decimal: Option<DecimalMark>,
+
+    /// Degree, or degrees in u and v
+    #[arg(long, default_value = "3", value_name = "P[,Q]", help_heading = "Surface")]
+    pub(crate) degree: Pair<usize>,
+
+    /// Direction in which the surface closes smoothly
+    #[arg(long, value_enum, default_value = "none", value_name = "DIRECTION", help_heading = "Surface")]
+    pub(crate) closed: ClosedChoice,
+
+    /// Parameters: chord (lengths averaged over the grid), centripetal, uniform, or axes: the
+    /// abscissae of the file [default: chord]
+    #[arg(long, value_name = "RULE[,RULE]", help_heading = "Surface")]
+    pub(crate) parameters: Option<Pair<GridParameterRule>>,
+
+    /// Knots: averaged, not-a-knot (odd degrees), at-data (odd degrees; tied ends), uniform
+    /// [default: averaged]
+    #[arg(long, value_name = "RULE[,RULE]", help_heading = "Surface")]
+    pub(crate) knots: Option<Pair<KnotRule>>,
+
+    /// Rule that moves the control points
+    #[arg(long, value_enum, default_value = "auto", value_name = "METHOD", help_heading = "Iteration")]
+    pub(crate) method: MethodChoice,
+
+    /// Weight for weighted and sor: auto (the best one), a number between 0 and 2, or for weighted
+    /// a file of one number per point, row by row
+    #[arg(
+        long,
+        default_value = "auto",
+        value_name = "W|auto|FILE",
+        allow_negative_numbers = true,
+        help_heading = "Iteration"
+    )]
+    pub(crate) weight: String,
+
+    /// Half bandwidth kept by the preconditioned method [default: the whole band]
+    #[arg(long, value_name = "Q", help_heading = "Iteration")]
+    pub(crate) bandwidth: Option<usize>,
+
+    /// Run the columns to their limit, then the rows, instead of both in every step
+    #[arg(long, help_heading = "Iteration")]
+    pub(crate) per_direction: bool,
+
+    /// Most iterations; with --per-direction, in each
+    #[arg(long, default_value_t = 1000, value_name = "N", help_heading = "Iteration")]
+    pub(crate) iterations: usize,
+
+    /// Largest residual to reach, in the unit of the points; 0 runs all iterations [default: 1e-12
+    /// of the extent, or what rounding allows]
+    #[arg(long, value_name = "T", allow_negative_numbers = true, help_heading = "Iteration")]
+    pub(crate) residual: Option<f64>,
+
+    /// Iterations whose fits are kept, such as 0,2,4,15,30
+    #[arg(long, value_name = "LIST", value_delimiter = ',', help_heading = "Iteration")]
+    pub(crate) keep: Vec<usize>,
+
+    /// Samples in u and v written to .csv files instead of control points, such as 100x80
+    #[arg(long, value_name = "MxN", value_parser = parse_shape, help_heading = "Writing")]
+    pub(crate) samples: Option<(usize, usize)>,
+
+    /// File for the report: .json, otherwise text
+    #[arg(long, value_name = "FILE", help_heading = "Writing")]
+    pub(crate) report: Option<PathBuf>,
+
+    /// Print nothing but errors and warnings
+    #[arg(long, short, help_heading = "Writing")]
+    pub(crate) quiet: bool,
+
+    /// Print the document instead of the report, without the geometry
+    #[arg(long, help_heading = "Writing")]
+    pub(crate) json: bool,
+
+    /// With --json: print geometry, parameters and kept fits too
+    #[arg(long, requires = "json", help_heading = "Writing")]
+    pub(crate) geometry: bool,
+}
+
+fn yes_or_no(text: &str) -> Result<bool, UnknownChoice> {
+    match text {
+        "yes" => Ok(true),
+        "no" => Ok(false),
+        _ => Err(UnknownChoice { given: text.into(), wanted: "yes or no" }),
+    }
+}
+
+/// Directions that close.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ClosedChoice {
+    None,
+    U,
+    V,
+    Both,
+}
+
+impl ClosedChoice {
+    /// For u and for v.
+    pub(crate) fn each(self) -> [bool; 2] {
+        [matches!(self, Self::U | Self::Both), matches!(self, Self::V | Self::Both)]
+    }
+}
+
+/// Rules for the parameters of a grid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum GridParameterRule {
+    Chord,
+    Centripetal,
+    Uniform,
+    Axes,
+}
+
+/// A choice for u and one for v.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Pair<T>(pub(crate) [T; 2]);
+
+impl<T: OneChoice> FromStr for Pair<T> {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let each: Result<Vec<T>, String> = text.split(',').map(|one| T::read(one.trim())).collect();
+        match each?.as_slice() {
+            &[both] => Ok(Self([both, both])),
+            &[u, v] => Ok(Self([u, v])),
+            _ => Err("give one value for both directions, or two with a comma between".into()),
+        }
+    }
+}
+
+/// What can stand in a [`Pair`].
+pub(crate) trait OneChoice: Copy {
+    fn read(text: &str) -> Result<Self, String>;
+}
+
+impl OneChoice for usize {
+    fn read(text: &str) -> Result<Self, String> {
+        text.parse().map_err(|_| format!("\"{text}\" is not a whole number"))
+    }
+}
+
+impl OneChoice for GridParameterRule {
+    fn read(text: &str) -> Result<Self, String> {
+        read_rule(text)
+    }
+}
+
+impl OneChoice for KnotRule {
+    fn read(text: &str) -> Result<Self, String> {
+        read_rule(text)
+    }
+}
+
+fn read_rule<R: ValueEnum>(text: &str) -> Result<R, String> {
+    R::from_str(text, false).map_err(|_| {
+        let known: Vec<String> = R::value_variants()
+            .iter()
+            .filter_map(|rule| rule.to_possible_value().map(|value| value.get_name().to_owned()))
+            .collect();
+        format!("\"{text}\" is no rule; the rules are {}", known.join(", "))
+    })
+}
