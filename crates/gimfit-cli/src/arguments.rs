@@ -1,6 +1,7 @@
 //! What can be typed, as clap reads it. Values that mean one of several things, such as a rule or a
 //! file, are told apart here.
 
+use crate::surface::SurfaceArguments;
 use crate::values;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use gimfit::Duplicates;
@@ -23,6 +24,8 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     /// Fit a curve through the points of a file
     Curve(Box<CurveArguments>),
+    /// Fit a surface through the points of a grid
+    Surface(Box<SurfaceArguments>),
     /// Sample a fitted curve
     Evaluate(EvaluateArguments),
     /// Tell what a file holds

@@ -3,9 +3,12 @@
 use crate::arguments::InfoArguments;
 use crate::explain::explain;
 use crate::{Ending, input, output};
+use anyhow::anyhow;
 use gimfit::PointsView;
 use gimfit::points::Extent;
-use gimfit_io::document::{Document, Geometry, is_document, parse_document};
+use gimfit_io::document::{
+    AnyDocument, Document, Geometry, SurfaceDocument, SurfaceKind, is_document, parse_any_document,
+};
 use gimfit_io::points::{PointTable, input_name, read_input, read_points_from};
 use std::fmt::Write;
 
@@ -14,7 +17,11 @@ pub(crate) fn run(arguments: &InfoArguments) -> anyhow::Result<Ending> {
     let name = input_name(path);
     let bytes = read_input(path)?;
     let facts = if is_document(&bytes) {
-        of_document(&parse_document(&bytes, &name)?, name)
+        match parse_any_document(&bytes, &name)? {
+            AnyDocument::Surface(document) => of_surface(&document, name),
+            AnyDocument::Curve(document) => of_document(&document, name),
+            _ => return Err(anyhow!("{name} holds a geometry that info does not know")),
+        }
     } else {
         let ending = path.extension().map(|ending| ending.to_string_lossy().into_owned());
         let options = input::options(&arguments.input);
@@ -103,6 +110,50 @@ fn of_points(table: &PointTable) -> anyhow::Result<Facts> {
 
 fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).fold(0.0, |sum: f64, (x, y)| sum.hypot(x - y))
+}
+
+fn of_surface(document: &SurfaceDocument, name: String) -> Facts {
+    let mut facts = Facts(Vec::new());
+    facts.add("file", name);
+    facts.add("holds", format!("gimfit document, version {}", document.version));
+    if let Some(SurfaceKind::Surface(surface)) = &document.geometry {
+        let closed = match surface.periodic {
+            [false, false] => "open surface",
+            [true, false] => "surface closed in u",
+            [false, true] => "surface closed in v",
+            [true, true] => "surface closed in u and v",
+        };
+        facts.add("geometry", closed);
+        facts.add("degrees", surface.degrees.to_vec());
+        facts.add("dimension", surface.dimension);
+        facts.add("knots", surface.knots.each_ref().map(Vec::len).to_vec());
+        if let Ok(surface) = surface.surface() {
+            facts.add("control_points", surface.control_net().shape().to_vec());
+            for (name, (start, end)) in ["domain_u", "domain_v"].into_iter().zip(surface.domain()) {
+                facts.add(name, vec![start, end]);
+            }
+        }
+    }
+    if let Some(report) = &document.report {
+        if let Some(source) = &report.source {
+            facts.add("fitted_to", source.clone());
+        }
+        facts.add("points", report.points.to_vec());
+        facts.add("method", report.method.clone());
+        facts.add("parameters", report.parameterizations.to_vec());
+        facts.add("knot_placement", report.knot_placements.to_vec());
+        facts.add("iterations", report.iterations);
+        facts.add("ended_by", report.termination.clone());
+        facts.add("largest_residual", report.max_residual);
+        facts.add("rms_residual", report.rms_residual);
+        facts.add("largest_deviation", report.max_deviation);
+        facts.add("extent", report.extent);
+    }
+    if let Some(sequence) = &document.sequence {
+        let kept: Vec<usize> = sequence.iter().map(|kept| kept.entry.iteration).collect();
+        facts.add("kept_iterations", kept);
+    }
+    facts
 }
 
 fn of_document(document: &Document, name: String) -> Facts {

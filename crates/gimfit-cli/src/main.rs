@@ -5,12 +5,17 @@ mod complete;
 mod curve;
 mod evaluate;
 mod explain;
+mod finish;
 mod info;
 mod input;
+mod method;
 mod output;
+mod outputs;
 mod progress;
+mod report_text;
 mod reproduce;
 mod signal;
+mod surface;
 mod targets;
 mod values;
 
@@ -31,6 +36,7 @@ fn main() -> ExitCode {
     let arguments = Arguments::try_parse().unwrap_or_else(|error| output::usage(&error));
     let result = match arguments.command {
         Command::Curve(arguments) => curve::run(&arguments),
+        Command::Surface(arguments) => surface::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Reproduce(arguments) => reproduce::run(&arguments),

@@ -57,6 +57,27 @@ fn io_error(error: csv::Error) -> io::Error {
     }
 }
 
+/// Writes points, a row each, after two labels of their own.
+///
+/// # Errors
+/// What the writer says.
+pub fn write_rows<'a>(
+    out: &mut dyn Write,
+    label_names: [&str; 2],
+    names: &[String],
+    labels: impl Iterator<Item = [String; 2]>,
+    points: impl Iterator<Item = &'a [f64]>,
+) -> io::Result<()> {
+    let mut table = csv::Writer::from_writer(out);
+    let head = label_names.into_iter().chain(names.iter().map(String::as_str));
+    table.write_record(head).map_err(io_error)?;
+    for (label, point) in labels.zip(points) {
+        let numbers = point.iter().map(|x| format!("{x:?}"));
+        table.write_record(label.into_iter().chain(numbers)).map_err(io_error)?;
+    }
+    table.flush()
+}
+
 fn coordinate_names(curve: &Curve, names: &[String]) -> Vec<String> {
     let dimension = curve.dimension();
     if names.len() == dimension {

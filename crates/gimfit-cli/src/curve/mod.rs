@@ -6,29 +6,33 @@ mod plan;
 mod print;
 mod save;
 
-use crate::arguments::{CurveArguments, MethodChoice};
+use crate::Ending;
+use crate::arguments::CurveArguments;
 use crate::explain::explain;
+use crate::finish::{Finish, Run};
+use crate::outputs::Wanted;
 use crate::progress::Progress;
 use crate::signal::{self, Stage};
-use crate::targets::is_standard;
-use crate::{Ending, output};
+use anyhow::ensure;
 use explain_fit::explain_fit;
-use gimfit::{PointsView, Termination, fit_curve_observed};
+use gimfit::{PointsView, fit_curve_observed};
 use gimfit_io::document::{Document, Seconds, document_of};
 use gimfit_io::points::PointTable;
 use plan::Plan;
-use save::Outputs;
 use std::time::Instant;
 
 /// A fit with everything that is told about it.
 struct Job<'a> {
     table: &'a PointTable,
     fit: &'a gimfit::CurveFit,
+    /// Samples in place of control points.
+    samples: Option<usize>,
     document: Document,
 }
 
 pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
-    save::check(arguments)?;
+    wanted(arguments).check(&plan::inputs(arguments))?;
+    ensure!(arguments.samples.is_none_or(|n| n >= 2), "--samples must be at least 2");
     signal::listen()?;
     let clock = Instant::now();
     let plan = Plan::new(arguments)?;
@@ -53,63 +57,28 @@ pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
         report.choices.splice(0..0, table.notes.iter().map(|note| format!("reading: {note}")));
         report.seconds = Some(Seconds { read, fit: fitted, write: None });
     }
-    let mut job = Job { table: &table, fit: &fit, document };
-    let mut outputs = Outputs::prepare(&mut job, arguments)?;
-    let text = print::report(&job, &outputs.written);
-    let text = output::printable(&text);
-    outputs.report(&job, arguments, &text)?;
-    let document = outputs.keep()?;
-    if let Some(document) = document {
-        output::data(&document)?;
-        if !arguments.quiet {
-            output::remark(&text);
-        }
-    } else if arguments.json {
-        output::data(&save::json_text(&job, arguments.geometry)?)?;
-    } else if !arguments.quiet || arguments.report.as_deref().is_some_and(is_standard) {
-        output::text(&text)?;
-    }
-    Ok(ending(&job, arguments))
-}
-
-/// Running all the iterations asked for is done, unless a residual was to be reached.
-fn ending(job: &Job<'_>, arguments: &CurveArguments) -> Ending {
-    let report = &job.fit.report;
-    let met = match report.termination {
-        Termination::Residual => true,
-        Termination::Iterations => report.residual_target == 0.0,
-        _ => false,
+    let mut job = Job { table: &table, fit: &fit, samples: arguments.samples, document };
+    let report = &fit.report;
+    let finish = Finish {
+        wanted: wanted(arguments),
+        quiet: arguments.quiet,
+        geometry: arguments.geometry,
+        method: arguments.method,
+        run: Run {
+            termination: report.termination,
+            residual_target: report.residual_target,
+            max_residual: report.max_residual,
+            iterations: report.iterations,
+        },
     };
-    if met {
-        return Ending::Done;
-    }
-    output::remark(&format!(
-        "{}warning: the residual {:.3e} was not reached: the run ended by {} at {:.3e} after {} \
-         iterations; what was found is written all the same{}\n",
-        if arguments.quiet { "" } else { "\n" },
-        report.residual_target,
-        report.termination,
-        report.max_residual,
-        report.iterations,
-        advice(report.termination, arguments.method)
-    ));
-    Ending::NotMet
+    finish.finish(&mut job, print::report)
 }
 
-/// What to try next.
-fn advice(termination: Termination, method: MethodChoice) -> &'static str {
-    let auto = method == MethodChoice::Auto;
-    match termination {
-        Termination::Iterations if auto => "; allow more with --iterations",
-        Termination::Iterations => "; allow more with --iterations, or use --method auto",
-        Termination::Stalled if auto => {
-            "; rounding allows no less: try a lower --degree or --parameters centripetal"
-        }
-        Termination::Stalled => {
-            "; rounding allows no less, or the method crawls: try --method auto"
-        }
-        Termination::Diverged if auto => "; try a lower --degree or --parameters centripetal",
-        Termination::Diverged => "; use --method auto",
-        _ => "",
+fn wanted(arguments: &CurveArguments) -> Wanted<'_> {
+    Wanted {
+        output: &arguments.output,
+        report: arguments.report.as_deref(),
+        json: arguments.json,
+        samples: arguments.samples.is_some(),
     }
 }

@@ -1,9 +1,10 @@
 //! From arguments to points and options, with all that can be checked before the run.
 
-use crate::arguments::{CurveArguments, KnotRule, MethodChoice, ParameterRule, RuleOrFile};
-use crate::{input, values};
-use anyhow::{anyhow, bail, ensure};
-use gimfit::{CurveOptions, IterationWeight, KnotPlacement, Method, Parameterization};
+use crate::arguments::{CurveArguments, KnotRule, ParameterRule, RuleOrFile};
+use crate::input;
+use crate::method::{ensure_kept_fits_fit, method, weight, weight_file};
+use anyhow::{bail, ensure};
+use gimfit::{CurveOptions, KnotPlacement, Parameterization};
 use gimfit_io::points::PointTable;
 use std::path::Path;
 
@@ -19,13 +20,11 @@ impl Plan {
             !(arguments.input.abscissa.is_some() && arguments.parameters.is_some()),
             "--abscissa and --parameters both give the parameters; use one of them"
         );
-        ensure!(
-            arguments.bandwidth.is_none() || arguments.method == MethodChoice::Preconditioned,
-            "--bandwidth belongs to --method preconditioned"
-        );
+        let method = method(arguments.method, arguments.bandwidth)?;
         let weight = weight(&arguments.weight)?;
         let mut table = input::points(&arguments.input)?;
-        ensure_kept_fits_fit(arguments, &table)?;
+        let numbers = table.coordinates.len();
+        ensure_kept_fits_fit(&arguments.keep, arguments.iterations, numbers, &table.source)?;
         if arguments.sort {
             table.sort_by_abscissa();
         }
@@ -34,7 +33,7 @@ impl Plan {
             closed: arguments.closed,
             parameterization: parameterization(arguments, &mut table)?,
             knot_placement: arguments.knots.as_ref().map(knot_placement).transpose()?,
-            method: method(arguments),
+            method,
             weight,
             iterations: arguments.iterations,
             residual: arguments.residual,
@@ -58,38 +57,6 @@ pub(super) fn inputs(arguments: &CurveArguments) -> Vec<(&str, &Path)> {
         inputs.push(("--weight", path));
     }
     inputs
-}
-
-fn method(arguments: &CurveArguments) -> Method {
-    match arguments.method {
-        MethodChoice::Auto => Method::Auto,
-        MethodChoice::Pia => Method::Pia,
-        MethodChoice::Weighted => Method::Weighted,
-        MethodChoice::Jacobi => Method::Jacobi,
-        MethodChoice::GaussSeidel => Method::GaussSeidel,
-        MethodChoice::Sor => Method::Sor,
-        MethodChoice::Chebyshev => Method::Chebyshev,
-        MethodChoice::Preconditioned => {
-            Method::Preconditioned { half_bandwidth: arguments.bandwidth }
-        }
-    }
-}
-
-fn weight(text: &str) -> anyhow::Result<IterationWeight> {
-    if text == "auto" {
-        return Ok(IterationWeight::Auto);
-    }
-    if let Some(path) = weight_file(text) {
-        let words = ["auto".into(), "a number".into()];
-        return Ok(IterationWeight::PerPoint(input::numbers(path, "--weight", &words)?));
-    }
-    let omega = values::number(text).map_err(|error| anyhow!("--weight {text}: {error}"))?;
-    Ok(IterationWeight::Same(omega))
-}
-
-/// The file of weights that `--weight` names, if it is none of its words.
-fn weight_file(text: &str) -> Option<&Path> {
-    (text != "auto" && text.parse::<f64>().is_err()).then(|| Path::new(text))
 }
 
 fn parameterization(
@@ -156,26 +123,4 @@ fn knot_placement(choice: &RuleOrFile<KnotRule>) -> anyhow::Result<KnotPlacement
             KnotPlacement::Given(input::numbers(path, "--knots", &names)?)
         }
     })
-}
-
-/// Most numbers in kept fits: 8 GB.
-const MOST_KEPT: u128 = 1_000_000_000;
-
-/// Refuses more kept fits than memory holds.
-fn ensure_kept_fits_fit(arguments: &CurveArguments, table: &PointTable) -> anyhow::Result<()> {
-    let mut kept = arguments.keep.clone();
-    kept.retain(|iteration| *iteration <= arguments.iterations);
-    kept.sort_unstable();
-    kept.dedup();
-    let numbers = kept.len() as u128 * table.coordinates.len() as u128;
-    ensure!(
-        numbers <= MOST_KEPT,
-        "{}: --keep asks for {} fits of {} points of dimension {}, {numbers} numbers; at most \
-         {MOST_KEPT} are kept: list fewer iterations",
-        table.source,
-        kept.len(),
-        table.rows(),
-        table.dimension()
-    );
-    Ok(())
 }

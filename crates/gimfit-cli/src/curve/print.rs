@@ -1,18 +1,13 @@
 //! The report that a person reads.
 
 use super::Job;
-use std::fmt::Write;
+use crate::report_text::{Lines, length, share, time};
 
 /// A few lines: what was read, chosen, run, found and written.
 pub(super) fn report(job: &Job<'_>, written: &[String]) -> String {
     let (table, report) = (job.table, &job.fit.report);
-    let mut text = String::new();
-    let title = table.title.as_deref().map(|title| format!(": {title}")).unwrap_or_default();
-    let _ = writeln!(text, "{}{title}", table.source);
-    let mut line = |label: &str, content: &str| {
-        let _ = writeln!(text, "  {label:<10} {content}");
-    };
-    line(
+    let mut lines = Lines::new(&table.source, table.title.as_deref());
+    lines.add(
         "read",
         &format!(
             "{} points of dimension {} ({}) as {}",
@@ -22,10 +17,8 @@ pub(super) fn report(job: &Job<'_>, written: &[String]) -> String {
             table.format
         ),
     );
-    for note in &table.notes {
-        line("", note);
-    }
-    line(
+    lines.add_all("", &table.notes);
+    lines.add(
         "curve",
         &format!(
             "degree {}, {}, {} control points{}",
@@ -39,10 +32,8 @@ pub(super) fn report(job: &Job<'_>, written: &[String]) -> String {
             }
         ),
     );
-    for (index, choice) in report.choices.iter().enumerate() {
-        line(if index == 0 { "chosen" } else { "" }, choice);
-    }
-    line(
+    lines.add_all("chosen", &report.choices);
+    lines.add(
         "run",
         &format!(
             "{}, {} iteration{}, ended by {} (target {:.3e})",
@@ -54,9 +45,12 @@ pub(super) fn report(job: &Job<'_>, written: &[String]) -> String {
         ),
     );
     if report.iteration_returned != report.iterations {
-        line("", &format!("the fit returned is that of iteration {}", report.iteration_returned));
+        lines.add(
+            "",
+            &format!("the fit returned is that of iteration {}", report.iteration_returned),
+        );
     }
-    line(
+    lines.add(
         "residual",
         &format!(
             "largest {:.3e} at {}, rms {:.3e}; {:.1e} of the extent {}",
@@ -67,7 +61,7 @@ pub(super) fn report(job: &Job<'_>, written: &[String]) -> String {
             length(report.extent)
         ),
     );
-    line(
+    lines.add(
         "deviation",
         &format!(
             "largest {:.3e} at {}",
@@ -76,39 +70,21 @@ pub(super) fn report(job: &Job<'_>, written: &[String]) -> String {
         ),
     );
     if let Some(smallest) = report.smallest_eigenvalue {
-        line("spectrum", &format!("smallest eigenvalue {smallest:.6e}"));
+        lines.add("spectrum", &format!("smallest eigenvalue {smallest:.6e}"));
     }
     if let Some(seconds) = job.document.report.as_ref().and_then(|report| report.seconds) {
         let write = seconds.write.map(|s| format!(", write {}", time(s))).unwrap_or_default();
-        line("time", &format!("read {}, fit {}{write}", time(seconds.read), time(seconds.fit)));
+        lines
+            .add("time", &format!("read {}, fit {}{write}", time(seconds.read), time(seconds.fit)));
     }
     for name in written {
-        line("wrote", name);
+        lines.add("wrote", name);
     }
-    text
+    lines.finish()
 }
 
 /// The row of a fitted point, as the file numbers it.
 fn place(job: &Job<'_>, fitted: usize) -> String {
     let row = job.fit.kept_points.as_ref().map_or(fitted, |kept| kept[fitted]);
     job.table.row_name(row)
-}
-
-fn share(part: f64, whole: f64) -> f64 {
-    if whole > 0.0 { part / whole } else { 0.0 }
-}
-
-/// A length in plain digits where they are few.
-fn length(x: f64) -> String {
-    if (1e-4..1e9).contains(&x) { format!("{x:.6}") } else { format!("{x:.6e}") }
-}
-
-fn time(seconds: f64) -> String {
-    if seconds < 1e-3 {
-        format!("{:.0} us", seconds * 1e6)
-    } else if seconds < 1.0 {
-        format!("{:.1} ms", seconds * 1e3)
-    } else {
-        format!("{seconds:.2} s")
-    }
 }

@@ -2,6 +2,7 @@
 //! both, or as two with a comma between: u (rows), then v (columns).
 
 use crate::arguments::{KnotRule, MethodChoice};
+use crate::values;
 use clap::{Args, ValueEnum};
 use gimfit_io::grids::{GridFormatChoice, parse_shape};
 use gimfit_io::points::{ColumnChoice, DecimalMark, Delimiter, UnknownChoice};
@@ -9,14 +10,16 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 #[derive(Debug, Args)]
-#[command(after_help = "Exit status: 0 done; 1 a residual was not reached (the best fit is written \
+#[command(
+    after_help = "Exit status: 0 done; 1 a residual was not reached (the best fit is written \
 all the same); 2 wrong usage or input, nothing written; 130 interrupted before there was a fit.
 
 Examples:
   gimfit surface heights.csv -o heights.svg
   gimfit surface hull.csv --degree 3,2 --parameters centripetal -o hull.json -o hull.png
   gimfit surface torus.csv --closed both --method pia --keep 0,3,15 -o torus.svg
-  gimfit surface peaks.csv --knots at-data --per-direction")]
+  gimfit surface peaks.csv --knots at-data --per-direction"
+)]
 pub(crate) struct SurfaceArguments {
     /// File of points in rows and columns: lines of row,column,x,y,z or u,v,x,y,z, a matrix of
     /// heights, an ESRI ASCII grid, NumPy .npy; - for standard input
@@ -37,7 +40,7 @@ pub(crate) struct SurfaceArguments {
     pub(crate) columns: Vec<ColumnChoice>,
 
     /// The two columns of the file that number, or parametrize, rows and columns of the grid
-    #[arg(long, value_name = "ROW,COLUMN", value_delimiter = ',', num_args = 2, help_heading = "Reading")]
+    #[arg(long, value_name = "ROW,COLUMN", value_delimiter = ',', help_heading = "Reading")]
     pub(crate) index_columns: Vec<ColumnChoice>,
 
     /// Whether the first row and column of a matrix are abscissae rather than heights
@@ -61,7 +64,13 @@ pub(crate) struct SurfaceArguments {
     pub(crate) degree: Pair<usize>,
 
     /// Direction in which the surface closes smoothly
-    #[arg(long, value_enum, default_value = "none", value_name = "DIRECTION", help_heading = "Surface")]
+    #[arg(
+        long,
+        value_enum,
+        default_value = "none",
+        value_name = "DIRECTION",
+        help_heading = "Surface"
+    )]
     pub(crate) closed: ClosedChoice,
 
     /// Parameters: chord (lengths averaged over the grid), centripetal, uniform, or axes: the
@@ -75,7 +84,13 @@ pub(crate) struct SurfaceArguments {
     pub(crate) knots: Option<Pair<KnotRule>>,
 
     /// Rule that moves the control points
-    #[arg(long, value_enum, default_value = "auto", value_name = "METHOD", help_heading = "Iteration")]
+    #[arg(
+        long,
+        value_enum,
+        default_value = "auto",
+        value_name = "METHOD",
+        help_heading = "Iteration"
+    )]
     pub(crate) method: MethodChoice,
 
     /// Weight for weighted and sor: auto (the best one), a number between 0 and 2, or for weighted
@@ -103,7 +118,13 @@ pub(crate) struct SurfaceArguments {
 
     /// Largest residual to reach, in the unit of the points; 0 runs all iterations [default: 1e-12
     /// of the extent, or what rounding allows]
-    #[arg(long, value_name = "T", allow_negative_numbers = true, help_heading = "Iteration")]
+    #[arg(
+        long,
+        value_name = "T",
+        allow_negative_numbers = true,
+        value_parser = values::number,
+        help_heading = "Iteration"
+    )]
     pub(crate) residual: Option<f64>,
 
     /// Iterations whose fits are kept, such as 0,2,4,15,30
@@ -174,8 +195,8 @@ impl<T: OneChoice> FromStr for Pair<T> {
     fn from_str(text: &str) -> Result<Self, String> {
         let each: Result<Vec<T>, String> = text.split(',').map(|one| T::read(one.trim())).collect();
         match each?.as_slice() {
-            &[both] => Ok(Self([both, both])),
-            &[u, v] => Ok(Self([u, v])),
+            [both] => Ok(Self([*both, *both])),
+            [u, v] => Ok(Self([*u, *v])),
             _ => Err("give one value for both directions, or two with a comma between".into()),
         }
     }

@@ -41,7 +41,9 @@ pub(super) fn figure(job: &Job<'_>) -> String {
         .filter(|entry| entry.max_residual.is_finite() && entry.rms_residual.is_finite())
         .map(|entry| (entry.iteration, entry.max_residual, entry.rms_residual))
         .collect();
-    let net = surface.control_net();
+    // A closed direction stores its first rows or columns again.
+    let free = free_shape(surface);
+    let greville = [0, 1].map(|k| surface.knots()[k].greville_abscissae()[..free[k]].to_vec());
     let data = fitted_points(job);
     surface_figure_svg(&SurfaceFigure {
         title: &title,
@@ -52,8 +54,9 @@ pub(super) fn figure(job: &Job<'_>) -> String {
         data_shape: report.points,
         data_points: &data,
         parameters: [&fit.parameters[0], &fit.parameters[1]],
-        net_shape: net.shape(),
-        control_net: net.points().coordinates(),
+        net_shape: free,
+        control_net: &free_net(job),
+        net_abscissae: [&greville[0], &greville[1]],
         mesh_shape: [mesh[0].len(), mesh[1].len()],
         mesh_parameters: [&mesh[0], &mesh[1]],
         mesh_points: &mesh_points,
@@ -63,11 +66,30 @@ pub(super) fn figure(job: &Job<'_>) -> String {
     })
 }
 
+fn free_shape(surface: &Surface) -> [usize; 2] {
+    [0, 1].map(|k| {
+        let stored = surface.control_net().shape()[k];
+        if surface.is_periodic()[k] { stored - surface.degrees()[k] } else { stored }
+    })
+}
+
+/// The control points that are free, row by row.
+fn free_net(job: &Job<'_>) -> Vec<f64> {
+    let surface = &job.fit.surface;
+    let [rows, columns] = free_shape(surface);
+    (0..rows)
+        .flat_map(|i| (0..columns).flat_map(move |j| surface.control_net().point(i, j)))
+        .copied()
+        .collect()
+}
+
 /// The points fitted: all but a repeated last row or column.
 fn fitted_points(job: &Job<'_>) -> Vec<f64> {
     let ([rows, columns], dimension) = (job.fit.report.points, job.grid.dimension());
     (0..rows)
-        .flat_map(|i| &job.grid.coordinates[i * job.grid.columns * dimension..][..columns * dimension])
+        .flat_map(|i| {
+            &job.grid.coordinates[i * job.grid.columns * dimension..][..columns * dimension]
+        })
         .copied()
         .collect()
 }

@@ -48,7 +48,10 @@ pub(super) fn report(job: &Job<'_>, written: &[String]) -> String {
         ),
     );
     if report.iteration_returned != report.iterations {
-        lines.add("", &format!("the fit returned is that of iteration {}", report.iteration_returned));
+        lines.add(
+            "",
+            &format!("the fit returned is that of iteration {}", report.iteration_returned),
+        );
     }
     let place = |[i, j]: [usize; 2]| grid.point_name(i, j);
     lines.add(
@@ -64,18 +67,15 @@ pub(super) fn report(job: &Job<'_>, written: &[String]) -> String {
     );
     lines.add(
         "deviation",
-        &format!(
-            "largest {:.3e} at {}",
-            report.max_deviation,
-            place(report.max_deviation_index)
-        ),
+        &format!("largest {:.3e} at {}", report.max_deviation, place(report.max_deviation_index)),
     );
     if let Some(smallest) = report.smallest_eigenvalue {
         lines.add("spectrum", &format!("smallest eigenvalue {smallest:.6e}"));
     }
     if let Some(seconds) = job.document.report.as_ref().and_then(|report| report.seconds) {
         let write = seconds.write.map(|s| format!(", write {}", time(s))).unwrap_or_default();
-        lines.add("time", &format!("read {}, fit {}{write}", time(seconds.read), time(seconds.fit)));
+        lines
+            .add("time", &format!("read {}, fit {}{write}", time(seconds.read), time(seconds.fit)));
     }
     for name in written {
         lines.add("wrote", name);

@@ -30,6 +30,14 @@ pub enum DocumentError {
         /// What it says it is.
         problem: String,
     },
+    /// A surface where a curve was wanted.
+    #[error(
+        "{name} holds a surface, and this is for curves; gimfit surface writes samples of a surface with --samples"
+    )]
+    Surface {
+        /// The file.
+        name: String,
+    },
     /// The geometry breaks a precondition.
     #[error("{name}: {reason}")]
     Geometry {
@@ -61,6 +69,9 @@ pub fn read_document(path: &Path) -> Result<Document, DocumentError> {
 /// # Errors
 /// [`DocumentError`].
 pub fn parse_document(bytes: &[u8], name: &str) -> Result<Document, DocumentError> {
+    if is_surface(bytes) {
+        return Err(DocumentError::Surface { name: name.into() });
+    }
     let document: Document = parse(bytes, name)?;
     if let Some(Geometry::Curve(curve)) = &document.geometry {
         let geometry = |reason| DocumentError::Geometry { name: name.into(), reason };

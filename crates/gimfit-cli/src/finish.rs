@@ -1,0 +1,89 @@
+//! The end of every fit: files, what is printed, and how the run is judged.
+
+use crate::arguments::MethodChoice;
+use crate::outputs::{Outputs, Product, Wanted};
+use crate::targets::is_standard;
+use crate::{Ending, output};
+use gimfit::Termination;
+
+/// What is printed, and of which run.
+pub(crate) struct Finish<'a> {
+    pub(crate) wanted: Wanted<'a>,
+    pub(crate) quiet: bool,
+    pub(crate) geometry: bool,
+    pub(crate) method: MethodChoice,
+    pub(crate) run: Run,
+}
+
+/// How a run ended.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Run {
+    pub(crate) termination: Termination,
+    pub(crate) residual_target: f64,
+    pub(crate) max_residual: f64,
+    pub(crate) iterations: usize,
+}
+
+impl Finish<'_> {
+    /// Writes and prints; `text` makes the report of the lines on what was written.
+    pub(crate) fn finish<P: Product>(
+        &self,
+        product: &mut P,
+        text: impl FnOnce(&P, &[String]) -> String,
+    ) -> anyhow::Result<Ending> {
+        let mut outputs = Outputs::prepare(product, self.wanted)?;
+        let text = text(product, &outputs.written);
+        let text = output::printable(&text);
+        outputs.report(product, self.wanted, &text)?;
+        if let Some(document) = outputs.keep()? {
+            output::data(&document)?;
+            if !self.quiet {
+                output::remark(&text);
+            }
+        } else if self.wanted.json {
+            output::data(&product.json(self.geometry)?)?;
+        } else if !self.quiet || self.wanted.report.is_some_and(is_standard) {
+            output::text(&text)?;
+        }
+        Ok(self.ending())
+    }
+
+    /// Running all the iterations asked for is done, unless a residual was to be reached.
+    fn ending(&self) -> Ending {
+        let Run { termination, residual_target, max_residual, iterations } = self.run;
+        let met = match termination {
+            Termination::Residual => true,
+            Termination::Iterations => residual_target == 0.0,
+            _ => false,
+        };
+        if met {
+            return Ending::Done;
+        }
+        output::remark(&format!(
+            "{}warning: the residual {residual_target:.3e} was not reached: the run ended by \
+             {termination} at {max_residual:.3e} after {iterations} iterations; what was found is \
+             written all the same{}\n",
+            if self.quiet { "" } else { "\n" },
+            self.advice()
+        ));
+        Ending::NotMet
+    }
+
+    /// What to try next.
+    fn advice(&self) -> &'static str {
+        let auto = self.method == MethodChoice::Auto;
+        match self.run.termination {
+            Termination::Iterations if auto => "; allow more with --iterations",
+            Termination::Iterations => "; allow more with --iterations, or use --method auto",
+            Termination::Stalled if auto => {
+                "; rounding allows no less: try a lower --degree or --parameters centripetal"
+            }
+            Termination::Stalled => {
+                "; rounding allows no less, or the method crawls: try --method auto"
+            }
+            Termination::Diverged if auto => "; try a lower --degree or --parameters centripetal",
+            Termination::Diverged => "; use --method auto",
+            _ => "",
+        }
+    }
+}

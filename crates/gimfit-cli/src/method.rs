@@ -1,0 +1,67 @@
+//! Methods and their weights, as the arguments of curves and surfaces give them.
+
+use crate::arguments::MethodChoice;
+use crate::{input, values};
+use anyhow::{anyhow, ensure};
+use gimfit::{IterationWeight, Method};
+use std::path::Path;
+
+/// The method of `--method` and `--bandwidth`.
+pub(crate) fn method(choice: MethodChoice, bandwidth: Option<usize>) -> anyhow::Result<Method> {
+    ensure!(
+        bandwidth.is_none() || choice == MethodChoice::Preconditioned,
+        "--bandwidth belongs to --method preconditioned"
+    );
+    Ok(match choice {
+        MethodChoice::Auto => Method::Auto,
+        MethodChoice::Pia => Method::Pia,
+        MethodChoice::Weighted => Method::Weighted,
+        MethodChoice::Jacobi => Method::Jacobi,
+        MethodChoice::GaussSeidel => Method::GaussSeidel,
+        MethodChoice::Sor => Method::Sor,
+        MethodChoice::Chebyshev => Method::Chebyshev,
+        MethodChoice::Preconditioned => Method::Preconditioned { half_bandwidth: bandwidth },
+    })
+}
+
+/// The weight of `--weight`: auto, a number, or a file.
+pub(crate) fn weight(text: &str) -> anyhow::Result<IterationWeight> {
+    if text == "auto" {
+        return Ok(IterationWeight::Auto);
+    }
+    if let Some(path) = weight_file(text) {
+        let words = ["auto".into(), "a number".into()];
+        return Ok(IterationWeight::PerPoint(input::numbers(path, "--weight", &words)?));
+    }
+    let omega = values::number(text).map_err(|error| anyhow!("--weight {text}: {error}"))?;
+    Ok(IterationWeight::Same(omega))
+}
+
+/// The file of weights that `--weight` names, if it is none of its words.
+pub(crate) fn weight_file(text: &str) -> Option<&Path> {
+    (text != "auto" && text.parse::<f64>().is_err()).then(|| Path::new(text))
+}
+
+/// Most numbers in kept fits: 8 GB.
+const MOST_KEPT: u128 = 1_000_000_000;
+
+/// Refuses more kept fits than memory holds; a fit takes `numbers` coordinates.
+pub(crate) fn ensure_kept_fits_fit(
+    keep: &[usize],
+    iterations: usize,
+    numbers: usize,
+    source: &str,
+) -> anyhow::Result<()> {
+    let mut kept = keep.to_vec();
+    kept.retain(|iteration| *iteration <= iterations);
+    kept.sort_unstable();
+    kept.dedup();
+    let wanted = kept.len() as u128 * numbers as u128;
+    ensure!(
+        wanted <= MOST_KEPT,
+        "{source}: --keep asks for {} fits of {numbers} coordinates, {wanted} numbers; at most \
+         {MOST_KEPT} are kept: list fewer iterations",
+        kept.len()
+    );
+    Ok(())
+}

@@ -1,0 +1,164 @@
+//! Files of a fit, by their endings: all produced first, then named.
+
+use crate::input;
+use crate::targets::{self, Kind, is_standard, kind, known_kind};
+use anyhow::{Context, ensure};
+use gimfit_io::write::{Prepared, prepare_file};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// What can be written, and the endings that ask for it.
+const ENDINGS: [(Kind, &str); 4] =
+    [(Kind::Json, ".json"), (Kind::Csv, ".csv"), (Kind::Svg, ".svg"), (Kind::Png, ".png")];
+
+/// Pixels per unit of a picture: sharp on screens of high resolution.
+const PNG_SCALE: f32 = 2.0;
+
+/// Where a command is to write.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Wanted<'a> {
+    /// Files of `--output`.
+    pub(crate) output: &'a [PathBuf],
+    /// File of `--report`.
+    pub(crate) report: Option<&'a Path>,
+    /// Whether the document goes to standard output.
+    pub(crate) json: bool,
+    /// Whether samples were asked for.
+    pub(crate) samples: bool,
+}
+
+impl Wanted<'_> {
+    /// Refuses outputs that cannot work, before any work is done; `inputs` are the files to read,
+    /// by the argument that names them.
+    pub(crate) fn check(&self, inputs: &[(&str, &Path)]) -> anyhow::Result<()> {
+        for path in self.output {
+            known_kind(path, &ENDINGS)?;
+        }
+        let outputs: Vec<&Path> =
+            self.output.iter().map(PathBuf::as_path).chain(self.report).collect();
+        let standard = outputs.iter().filter(|path| is_standard(path)).count();
+        ensure!(
+            standard + usize::from(self.json) <= 1,
+            "--json, -o - and --report - each write to standard output; use one of them, once"
+        );
+        ensure!(
+            !self.samples || self.output.iter().any(|path| kind(path) == Some(Kind::Csv)),
+            "--samples belongs to an output that ends in .csv"
+        );
+        input::check_standard_input(inputs)?;
+        let inputs: Vec<&Path> = inputs.iter().map(|(_, path)| *path).collect();
+        targets::check(&outputs, &inputs)
+    }
+}
+
+/// A fit that can be written in all forms.
+pub(crate) trait Product {
+    /// The picture.
+    fn svg(&self) -> String;
+
+    /// The table, and what it holds.
+    fn table(&self, out: &mut dyn Write) -> io::Result<String>;
+
+    /// The document on one line, with or without what can be long.
+    fn json(&self, geometry: bool) -> anyhow::Result<String>;
+
+    /// Writes the whole document.
+    fn write_json(&self, out: &mut dyn Write) -> io::Result<()>;
+
+    /// Notes how long writing took, in seconds.
+    fn set_write_time(&mut self, seconds: f64);
+}
+
+/// All that is to be written, complete: files that have not yet taken their names, and the document
+/// for standard output.
+#[derive(Default)]
+pub(crate) struct Outputs {
+    files: Vec<Prepared>,
+    document: Option<String>,
+    /// What the files are, a line each.
+    pub(crate) written: Vec<String>,
+}
+
+impl Outputs {
+    /// Produces everything but the report. Documents come last, so that they can tell how long the
+    /// others took.
+    pub(crate) fn prepare(product: &mut dyn Product, wanted: Wanted<'_>) -> anyhow::Result<Self> {
+        let clock = Instant::now();
+        let mut outputs = Self::default();
+        let mut picture = None;
+        for path in wanted.output {
+            match kind(path) {
+                Some(Kind::Csv) => {
+                    let mut what = String::new();
+                    outputs.files.push(prepare_file(path, |out| {
+                        what = product.table(out)?;
+                        Ok(())
+                    })?);
+                    outputs.written.push(format!("{}: {what}", path.display()));
+                }
+                Some(Kind::Svg) => {
+                    let svg = picture.get_or_insert_with(|| product.svg());
+                    outputs.file(path, "picture", |out| out.write_all(svg.as_bytes()))?;
+                }
+                Some(Kind::Png) => {
+                    let svg = picture.get_or_insert_with(|| product.svg());
+                    let png = gimfit_io::figure::svg_to_png(svg, PNG_SCALE)
+                        .with_context(|| format!("cannot write {}", path.display()))?;
+                    outputs.file(path, "picture", |out| out.write_all(&png))?;
+                }
+                Some(Kind::Json | Kind::StandardOutput) | None => {}
+            }
+        }
+        product.set_write_time(clock.elapsed().as_secs_f64());
+        for path in wanted.output {
+            match kind(path) {
+                Some(Kind::StandardOutput) => outputs.document = Some(product.json(true)?),
+                Some(Kind::Json) => {
+                    outputs.file(path, "document", |out| product.write_json(out))?;
+                }
+                _ => {}
+            }
+        }
+        product.set_write_time(clock.elapsed().as_secs_f64());
+        let report = wanted.report.filter(|path| !is_standard(path));
+        outputs.written.extend(report.map(|path| format!("{}: report", path.display())));
+        Ok(outputs)
+    }
+
+    /// Produces the report where a file was asked for.
+    pub(crate) fn report(
+        &mut self,
+        product: &dyn Product,
+        wanted: Wanted<'_>,
+        text: &str,
+    ) -> anyhow::Result<()> {
+        let Some(path) = wanted.report.filter(|path| !is_standard(path)) else {
+            return Ok(());
+        };
+        let json = (kind(path) == Some(Kind::Json)).then(|| product.json(false)).transpose()?;
+        let content = json.as_deref().unwrap_or(text);
+        self.files.push(prepare_file(path, |out| out.write_all(content.as_bytes()))?);
+        Ok(())
+    }
+
+    /// Lets all files take their names, now that none can fail to be produced; gives back what
+    /// standard output is to hold.
+    pub(crate) fn keep(self) -> anyhow::Result<Option<String>> {
+        for file in self.files {
+            file.keep()?;
+        }
+        Ok(self.document)
+    }
+
+    fn file(
+        &mut self,
+        path: &Path,
+        what: &str,
+        content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> anyhow::Result<()> {
+        self.files.push(prepare_file(path, content)?);
+        self.written.push(format!("{}: {what}", path.display()));
+        Ok(())
+    }
+}
