@@ -1,6 +1,7 @@
 //! Published tables, recomputed and shown beside the paper.
 
 mod functions2007;
+mod lin2004;
 mod measure;
 mod orsi2021;
 mod spectra;
@@ -21,7 +22,7 @@ struct Reproduction {
     recompute: fn() -> anyhow::Result<Table>,
 }
 
-const REPRODUCTIONS: [Reproduction; 4] = [
+const REPRODUCTIONS: [Reproduction; 5] = [
     Reproduction {
         name: "wang2007",
         line: "Wang, Li, Jiang and Li 2007, Table 1: closed quadratic curve, 15 passes",
@@ -31,6 +32,11 @@ const REPRODUCTIONS: [Reproduction; 4] = [
         name: "functions2007",
         line: "Wang, Li, Jiang and Li 2007, section 5.2: three functions, measured errors",
         recompute: functions2007::recompute,
+    },
+    Reproduction {
+        name: "lin2004",
+        line: "Lin, Wang and Dong 2004, Table 1, Fig. 6: a surface through MATLAB's peaks",
+        recompute: lin2004::recompute,
     },
     Reproduction {
         name: "orsi2021",
