@@ -523,3 +523,30 @@ fn a_repeated_closing_point_follows_the_policy_on_duplicates() {
         assert!(fit.report.converged() && fit.report.points == 4);
     }
 }
+
+#[test]
+fn closed_curves_of_million_to_one_spacing_are_met_at_every_degree() {
+    for seed in 0..25 {
+        let mut random = Random::new(seed);
+        let mut angle: f64 = 0.0;
+        let data: Rows = (0..20)
+            .map(|_| {
+                // Steps between 1e-6 and 1 of the largest, evenly in their logarithm.
+                angle += 0.3 * 10f64.powf(-6.0 * random.unit());
+                vec![angle.cos(), angle.sin()]
+            })
+            .collect();
+        for degree in 2..=9 {
+            let options = CurveOptions { degree, closed: true, ..Default::default() };
+            let found = fit(&data, &options);
+            let scale = rows(found.curve.control_points())
+                .concat()
+                .iter()
+                .fold(found.report.extent, |m, x| m.max(x.abs()));
+            let residual = textbook_residual(&data, &found);
+            assert!(residual <= 1e-13 * scale, "{seed} {degree}: {residual:e} at {scale:e}");
+            let wild = found.report.choices.iter().any(|choice| choice.starts_with("caution"));
+            assert!(found.report.converged() || wild, "{seed} {degree}: {:?}", found.report);
+        }
+    }
+}

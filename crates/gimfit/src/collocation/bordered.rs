@@ -21,9 +21,8 @@ pub(super) struct BorderedFactors {
     border: Option<Border>,
 }
 
-/// Entries of `B^-1 E` beyond this mean that the band without its border is so badly conditioned
-/// that digits are lost.
-const MOST_GROWTH: f64 = 1e4;
+/// Largest error of a probe, in units of its solution, that factors may leave.
+const MOST_ERROR: f64 = 1e-13;
 
 /// The unknowns set apart, `x2`, in `[B E; F G] [x1; x2] = [r1; r2]`.
 #[derive(Debug, Clone)]
@@ -54,11 +53,27 @@ impl BorderedFactors {
         if wrapped > 0 {
             let mut border = Border::new(operator, wrapped);
             factors.substitute_band(&mut border.reach, wrapped);
-            sound &= border.reach.iter().all(|entry| entry.abs() <= MOST_GROWTH);
             sound &= border.complete();
             factors.border = Some(border);
         }
-        sound.then_some(factors)
+        (sound && (wrapped == 0 || factors.pass_probe(operator))).then_some(factors)
+    }
+
+    /// Whether a right side made of a rough vector is met again: the band without its border may be
+    /// so badly conditioned that the way round it loses all digits.
+    fn pass_probe(&self, operator: &BandedCollocation) -> bool {
+        let count = operator.points();
+        // Of both signs, without a period.
+        let probe: Vec<f64> =
+            (0..count).map(|j| (1.0 + j as f64 * 2.399_963_229_728_653).sin()).collect();
+        let mut right = memory::zeros(count);
+        operator.apply(&probe, 1, &mut right);
+        let mut solution = right.clone();
+        self.solve_in_place(&mut solution, 1);
+        let mut rest = probe;
+        let left = operator.difference_vectors(&right, &solution, 1, &mut rest);
+        let size = solution.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
+        left.is_finite() && left.max <= MOST_ERROR * size
     }
 
     /// Solves `M x = r` in place for vectors of shape (points, dimension).

@@ -20,9 +20,6 @@ pub(super) struct FoldedFactors {
     exchanged: Vec<u32>,
 }
 
-/// Pivots below this are what rounding leaves of a vanished one: rows of weights sum to 1.
-const SMALLEST_PIVOT: f64 = 4.0 * f64::EPSILON;
-
 impl FoldedFactors {
     /// Factors an operator; `None` if it is singular in doubles.
     pub(super) fn new(operator: &BandedCollocation, reach: usize) -> Option<Self> {
@@ -43,7 +40,8 @@ impl FoldedFactors {
             let pivot_row =
                 (k..=last).fold(k, |best, row| if size(row) > size(best) { row } else { best });
             let pivot = size(pivot_row);
-            if !(pivot > SMALLEST_PIVOT && pivot.is_finite()) {
+            // However small: rows of graded data scale down as a whole without being dependent.
+            if !(pivot > 0.0 && pivot.is_finite()) {
                 return None;
             }
             factors.exchanged.push(pivot_row as u32);

@@ -42,7 +42,7 @@ pub(super) fn choose<'a>(
             let whole_band = Preconditioned::new(operator, None)?;
             if gradual > 0 {
                 choices.push(format!(
-                    "method: plain PIA for {gradual} steps, because fits of the way are kept, then \
+                    "method: plain PIA up to step {gradual}, because fits of the way are kept, then \
                      preconditioned PIA"
                 ));
                 ("auto", Box::new(Staged::new(Pia, gradual, whole_band)))
