@@ -110,7 +110,7 @@ fn kept_fits_that_no_memory_holds_are_refused() {
     let place = Place::with("a.csv", wave(100_001));
     let keep: Vec<String> = (0..5000).map(|i| i.to_string()).collect();
     let line = format!("curve a.csv --method pia --iterations 5000 --keep {}", keep.join(","));
-    place.run(&line).code(2).says(&["a.csv", "--keep", "5000 fits of 100001 points"]);
+    place.run(&line).code(2).says(&["a.csv", "--keep", "5000 fits of 200002 coordinates"]);
 }
 
 #[test]

@@ -145,3 +145,17 @@ fn documents_come_back_bit_by_bit() {
         }
     }
 }
+
+#[test]
+fn a_run_that_converged_is_below_the_target_it_reports() {
+    for (name, columns, _) in FILES {
+        let table = read(name, columns);
+        for degree in [3, 7, 9] {
+            let options = CurveOptions { degree, ..Default::default() };
+            let report = fit(&table, &options).report;
+            if report.converged() {
+                assert!(report.max_residual <= report.residual_target, "{name} {degree}");
+            }
+        }
+    }
+}

@@ -201,7 +201,7 @@ fn fit_problem(
         iterations: solved.iterations,
         iteration_returned: solved.iteration_returned,
         termination: solved.termination,
-        residual_target: scale.undo(stopping.residual),
+        residual_target: scale.undo(solved.target),
         extent: size.extent.diagonal(),
         max_residual: scale.undo(norms.max),
         max_residual_index: norms.max_index,

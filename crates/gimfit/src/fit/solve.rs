@@ -84,6 +84,8 @@ pub(super) struct Solved {
     pub(super) vectors: Vec<f64>,
     pub(super) norms: ResidualNorms,
     pub(super) termination: Termination,
+    /// The residual aimed at, or the level of rounding that was accepted for it; scaled.
+    pub(super) target: f64,
     pub(super) iterations: usize,
     pub(super) iteration_returned: usize,
     pub(super) history: Vec<HistoryEntry>,
@@ -125,7 +127,9 @@ pub(super) fn solve(
         return Err(Error::LeavesDoubles);
     }
     let reached_rounding = state.rounding_level();
-    if termination == Termination::Residual && norms.max > stopping.residual {
+    let mut target = stopping.residual;
+    if termination == Termination::Residual && norms.max > target {
+        target = reached_rounding;
         choices.push(format!(
             "residual: {:e}, what rounding leaves with control points this large",
             scale.undo(reached_rounding)
@@ -150,6 +154,7 @@ pub(super) fn solve(
         vectors,
         norms,
         termination,
+        target,
         iterations,
         iteration_returned,
         history,

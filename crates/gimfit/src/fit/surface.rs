@@ -138,7 +138,7 @@ pub fn fit_surface_observed(
         iterations: solved.iterations,
         iteration_returned: solved.iteration_returned,
         termination: solved.termination,
-        residual_target: scale.undo(stopping.residual),
+        residual_target: scale.undo(solved.target),
         extent: size.extent.diagonal(),
         max_residual: scale.undo(norms.max),
         max_residual_index: cell(norms.max_index),
@@ -355,6 +355,12 @@ fn per_direction(setting: &Setting<'_>, observer: &mut dyn Observer) -> Result<E
         vectors: work,
         norms,
         termination,
+        target: setting.stopping.residual.max(if termination == Termination::Residual {
+            // What was accepted in each direction adds up.
+            first.target + second.target
+        } else {
+            0.0
+        }),
         iterations,
         iteration_returned: first.iteration_returned + second.iteration_returned,
         history: vec![entry(0, before), entry(iterations, norms)],

@@ -29,7 +29,8 @@ pub struct CurveReport {
     pub iteration_returned: usize,
     /// Why the run ended.
     pub termination: Termination,
-    /// The residual it aimed at.
+    /// The residual it aimed at; where that lay below rounding and none was demanded, the level of
+    /// rounding that was accepted.
     pub residual_target: f64,
     /// Diagonal of the bounding box of the data.
     pub extent: f64,
