@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, clippy::panic)] // A test that cannot go on has failed.
 
 use gimfit::{
-    CurveOptions, Duplicates, Error, IterationWeight, KnotPlacement, Method, Parameterization,
-    PointsView, fit_curve,
+    CurveOptions, Duplicates, Error, GridView, IterationWeight, KnotPlacement, Method,
+    Parameterization, PointsView, SurfaceOptions, fit_curve, fit_surface,
 };
 use proptest::prelude::*;
 
@@ -115,6 +115,35 @@ fn check(dimension: usize, coordinates: &[f64], options: &CurveOptions) {
     }
 }
 
+/// Fits a surface and looks for what must never be found.
+fn check_surface(
+    shape: [usize; 2],
+    dimension: usize,
+    coordinates: &[f64],
+    options: &SurfaceOptions,
+) {
+    let view = GridView::new(shape, dimension, coordinates).unwrap();
+    match fit_surface(view, options) {
+        Err(error) => assert!(error.to_string().len() > 20, "{error}"),
+        Ok(fit) => {
+            let finite = |list: &[f64]| list.iter().all(|x| x.is_finite());
+            assert!(finite(fit.surface.control_net().points().coordinates()));
+            assert!(finite(&fit.parameters[0]) && finite(&fit.parameters[1]));
+            assert!(finite(fit.difference_vectors.coordinates()));
+            let report = &fit.report;
+            assert!(finite(&[report.max_residual, report.rms_residual, report.max_deviation]));
+            assert!(report.max_deviation <= report.max_residual);
+            for (u, v) in fit.surface.knots()[0]
+                .equal_steps(4)
+                .into_iter()
+                .zip(fit.surface.knots()[1].equal_steps(4))
+            {
+                assert!(finite(&fit.surface.evaluate(u, v).unwrap()));
+            }
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 3000, ..ProptestConfig::default() })]
 
@@ -126,6 +155,32 @@ proptest! {
     ) {
         let whole = coordinates.len() / dimension * dimension;
         check(dimension, &coordinates[..whole], &options);
+    }
+
+    #[test]
+    fn any_grid_and_options_end_in_a_fit_or_a_reason(
+        rows in 0_usize..8,
+        columns in 0_usize..8,
+        dimension in 1_usize..4,
+        coordinates in prop::collection::vec(any_coordinate(), 147),
+        choices in (any_options(), any_options()),
+        per_direction in any::<bool>(),
+    ) {
+        let (u, v) = choices;
+        let options = SurfaceOptions {
+            degrees: [u.degree, v.degree],
+            closed: [u.closed, v.closed],
+            parameterizations: [u.parameterization, v.parameterization],
+            knot_placements: [u.knot_placement, v.knot_placement],
+            method: u.method,
+            weight: u.weight,
+            per_direction,
+            iterations: u.iterations,
+            residual: u.residual,
+            keep: v.keep,
+        };
+        let length = rows * columns * dimension;
+        check_surface([rows, columns], dimension, &coordinates[..length], &options);
     }
 
     #[test]
