@@ -18,7 +18,7 @@ const PRINTED: [(usize, &str, usize); 6] = [
     (30, "1.2695e-3", 5),
 ];
 
-/// Why two entries differ in their last digit.
+/// Why an entry differs in its last digit.
 const CUT: &str = "the digits that follow were cut off, not rounded";
 
 pub(super) fn recompute() -> anyhow::Result<Table> {

@@ -17,7 +17,7 @@ all the same); 2 wrong usage or input, nothing written; 130 interrupted before t
 Examples:
   gimfit surface heights.csv -o heights.svg
   gimfit surface hull.csv --degree 3,2 --parameters centripetal -o hull.json -o hull.png
-  gimfit surface torus.csv --closed both --method pia --keep 0,3,15 -o torus.svg
+  gimfit surface torus.csv --closed both --method pia --keep 0,3,15 -o torus.json
   gimfit surface peaks.csv --knots at-data --per-direction"
 )]
 pub(crate) struct SurfaceArguments {

@@ -7,7 +7,7 @@ use std::path::Path;
 
 /// Samples per span of knots, and the most in one direction.
 const PER_SPAN: usize = 4;
-const MOST_SAMPLES: usize = 240;
+const MOST_SAMPLES: usize = 96;
 
 /// The figure as SVG.
 pub(super) fn figure(job: &Job<'_>) -> String {

@@ -45,6 +45,8 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
     let Plan { grid, options } = Plan::new(arguments)?;
     let read = clock.elapsed().as_secs_f64();
 
+    let unused = [&grid.row_abscissae, &grid.column_abscissae].map(Option::is_some) == [true; 2]
+        && arguments.parameters.is_none();
     let explain = |error| explain(error, &grid);
     let view = GridView::new([grid.rows, grid.columns], grid.dimension(), &grid.coordinates)
         .map_err(explain)?;
@@ -61,6 +63,11 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
     document.coordinate_names = Some(grid.column_names.clone());
     if let Some(report) = &mut document.report {
         report.source = Some(grid.source.clone());
+        if unused {
+            report.choices.push(
+                "parameters: those in the file are left aside; --parameters axes takes them".into(),
+            );
+        }
         report.choices.splice(0..0, grid.notes.iter().map(|note| format!("reading: {note}")));
         report.seconds = Some(Seconds { read, fit: fitted, write: None });
     }
@@ -103,6 +110,12 @@ fn explain(error: Error, grid: &PointGrid) -> anyhow::Error {
              of them, or use --parameters uniform",
             first + 1,
             second + 1
+        ),
+        Error::ParametersNotIncreasing { index, value, previous } => anyhow!(
+            "{source}: abscissa {value} (number {}) does not exceed {previous} before it; abscissae \
+             serve as parameters only where they rise along rows and columns: use --parameters chord, \
+             or one rule for each direction, such as chord,axes",
+            index + 1
         ),
         other => anyhow!("{source}: {other}"),
     }

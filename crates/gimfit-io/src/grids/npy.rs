@@ -134,7 +134,7 @@ fn shape(header: &Header, asked: Option<(usize, usize)>) -> Result<Shape, String
             }
             None if *d <= MOST_COORDINATES && k > d => refuse(&format!(
                 ", which can be points or rows of heights; give the shape of the grid with \
-                 --shape (--shape {k}x{d} means heights), or"
+                 --shape (--shape {k}x{d} means heights)"
             )),
             _ => Ok(Shape { rows: *k, columns: *d, dimension: 1, content: Content::Heights }),
         },
