@@ -154,3 +154,12 @@ fn a_picture_over_an_abscissa_names_it() {
     place.run("curve a.csv --abscissa depth -o a.svg -q").code(0);
     assert!(place.read("a.svg").contains(">depth<"));
 }
+
+#[test]
+fn points_where_a_document_is_wanted_are_told_apart() {
+    let place = Place::with("a.csv", "x,y\n1,2\n3,4\n5,5\n6,1\n");
+    place
+        .run("evaluate a.csv --samples 3")
+        .code(2)
+        .says(&["is no gimfit document", "gimfit curve"]);
+}

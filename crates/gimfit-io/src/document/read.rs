@@ -134,6 +134,10 @@ fn is_surface(bytes: &[u8]) -> bool {
 }
 
 fn parse<T: serde::de::DeserializeOwned>(bytes: &[u8], name: &str) -> Result<T, DocumentError> {
+    if !is_document(bytes) {
+        let problem = "it is not JSON; gimfit curve POINTS -o FILE.json writes one".to_owned();
+        return Err(DocumentError::Foreign { name: name.into(), problem });
+    }
     let parsed = serde_json::from_slice(bytes);
     if let Some(problem) = foreign(bytes) {
         return Err(DocumentError::Foreign { name: name.into(), problem });
