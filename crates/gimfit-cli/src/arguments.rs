@@ -135,6 +135,20 @@ pub(crate) struct CurveArguments {
     #[arg(long, requires = "abscissa", help_heading = "Curve")]
     pub(crate) sort: bool,
 
+    #[command(flatten)]
+    pub(crate) iteration: IterationArguments,
+
+    #[command(flatten)]
+    pub(crate) writing: WritingArguments,
+
+    /// Samples written to .csv files instead of control points
+    #[arg(long, value_name = "N", value_parser = values::samples, help_heading = "Writing")]
+    pub(crate) samples: Option<usize>,
+}
+
+/// The rule that runs and when it stops, for curves and surfaces.
+#[derive(Debug, Args)]
+pub(crate) struct IterationArguments {
     /// Rule that moves the control points
     #[arg(
         long,
@@ -146,7 +160,7 @@ pub(crate) struct CurveArguments {
     pub(crate) method: MethodChoice,
 
     /// Weight for weighted and sor: auto (the best one), a number between 0 and 2, or for weighted
-    /// a file of one number per point
+    /// a file of one number per point, of a grid row by row
     #[arg(
         long,
         default_value = "auto",
@@ -178,15 +192,15 @@ pub(crate) struct CurveArguments {
     /// Iterations whose fits are kept, such as 0,2,4,15,30
     #[arg(long, value_name = "LIST", value_delimiter = ',', help_heading = "Iteration")]
     pub(crate) keep: Vec<usize>,
+}
 
+/// What is written and printed, for curves and surfaces.
+#[derive(Debug, Args)]
+pub(crate) struct WritingArguments {
     /// File to write; by its ending a document (.json), control points or samples (.csv), or a
     /// picture (.svg, .png). May be given several times; - writes the document to standard output
     #[arg(short, long, value_name = "FILE", help_heading = "Writing")]
     pub(crate) output: Vec<PathBuf>,
-
-    /// Samples written to .csv files instead of control points
-    #[arg(long, value_name = "N", value_parser = values::samples, help_heading = "Writing")]
-    pub(crate) samples: Option<usize>,
 
     /// File for the report: .json, otherwise text; - for text on standard output
     #[arg(long, value_name = "FILE", help_heading = "Writing")]

@@ -9,8 +9,6 @@ use gimfit::Termination;
 /// What is printed, and of which run.
 pub(crate) struct Finish<'a> {
     pub(crate) wanted: Wanted<'a>,
-    pub(crate) quiet: bool,
-    pub(crate) geometry: bool,
     pub(crate) method: MethodChoice,
     pub(crate) run: Run,
 }
@@ -37,12 +35,12 @@ impl Finish<'_> {
         outputs.report(product, self.wanted, &text)?;
         if let Some(document) = outputs.keep()? {
             output::data(&document)?;
-            if !self.quiet {
+            if !self.wanted.arguments.quiet {
                 output::remark(&text);
             }
-        } else if self.wanted.json {
-            output::data(&product.json(self.geometry)?)?;
-        } else if !self.quiet || self.wanted.report.is_some_and(is_standard) {
+        } else if self.wanted.arguments.json {
+            output::data(&product.json(self.wanted.arguments.geometry)?)?;
+        } else if !self.wanted.arguments.quiet || self.wanted.report().is_some_and(is_standard) {
             output::text(&text)?;
         }
         Ok(self.ending())
@@ -63,7 +61,7 @@ impl Finish<'_> {
             "{}warning: the residual {residual_target:.3e} was not reached: the run ended by \
              {termination} at {max_residual:.3e} after {iterations} iterations; what was found is \
              written all the same{}\n",
-            if self.quiet { "" } else { "\n" },
+            if self.wanted.arguments.quiet { "" } else { "\n" },
             self.advice()
         ));
         Ending::NotMet

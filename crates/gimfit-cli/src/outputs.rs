@@ -1,5 +1,6 @@
 //! Files of a fit, by their endings: all produced first, then named.
 
+use crate::arguments::WritingArguments;
 use crate::input;
 use crate::targets::{self, Kind, is_standard, kind, known_kind};
 use anyhow::{Context, ensure};
@@ -18,32 +19,36 @@ const PNG_SCALE: f32 = 2.0;
 /// Where a command is to write.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Wanted<'a> {
-    /// Files of `--output`.
-    pub(crate) output: &'a [PathBuf],
-    /// File of `--report`.
-    pub(crate) report: Option<&'a Path>,
-    /// Whether the document goes to standard output.
-    pub(crate) json: bool,
+    pub(crate) arguments: &'a WritingArguments,
     /// Whether samples were asked for.
-    pub(crate) samples: bool,
+    samples: bool,
 }
 
-impl Wanted<'_> {
+impl<'a> Wanted<'a> {
+    pub(crate) fn new(arguments: &'a WritingArguments, samples: bool) -> Self {
+        Self { arguments, samples }
+    }
+
+    /// File of the report.
+    pub(crate) fn report(&self) -> Option<&'a Path> {
+        self.arguments.report.as_deref()
+    }
+
     /// Refuses outputs that cannot work, before any work is done; `inputs` are the files to read,
     /// by the argument that names them.
     pub(crate) fn check(&self, inputs: &[(&str, &Path)]) -> anyhow::Result<()> {
-        for path in self.output {
+        for path in &self.arguments.output {
             known_kind(path, &ENDINGS)?;
         }
         let outputs: Vec<&Path> =
-            self.output.iter().map(PathBuf::as_path).chain(self.report).collect();
+            self.arguments.output.iter().map(PathBuf::as_path).chain(self.report()).collect();
         let standard = outputs.iter().filter(|path| is_standard(path)).count();
         ensure!(
-            standard + usize::from(self.json) <= 1,
+            standard + usize::from(self.arguments.json) <= 1,
             "--json, -o - and --report - each write to standard output; use one of them, once"
         );
         ensure!(
-            !self.samples || self.output.iter().any(|path| kind(path) == Some(Kind::Csv)),
+            !self.samples || self.arguments.output.iter().any(|path| kind(path) == Some(Kind::Csv)),
             "--samples belongs to an output that ends in .csv"
         );
         input::check_standard_input(inputs)?;
@@ -87,7 +92,7 @@ impl Outputs {
         let clock = Instant::now();
         let mut outputs = Self::default();
         let mut picture = None;
-        for path in wanted.output {
+        for path in &wanted.arguments.output {
             match kind(path) {
                 Some(Kind::Csv) => {
                     let mut what = String::new();
@@ -111,7 +116,7 @@ impl Outputs {
             }
         }
         product.set_write_time(clock.elapsed().as_secs_f64());
-        for path in wanted.output {
+        for path in &wanted.arguments.output {
             match kind(path) {
                 Some(Kind::StandardOutput) => outputs.document = Some(product.json(true)?),
                 Some(Kind::Json) => {
@@ -121,7 +126,7 @@ impl Outputs {
             }
         }
         product.set_write_time(clock.elapsed().as_secs_f64());
-        let report = wanted.report.filter(|path| !is_standard(path));
+        let report = wanted.report().filter(|path| !is_standard(path));
         outputs.written.extend(report.map(|path| format!("{}: report", path.display())));
         Ok(outputs)
     }
@@ -133,7 +138,7 @@ impl Outputs {
         wanted: Wanted<'_>,
         text: &str,
     ) -> anyhow::Result<()> {
-        let Some(path) = wanted.report.filter(|path| !is_standard(path)) else {
+        let Some(path) = wanted.report().filter(|path| !is_standard(path)) else {
             return Ok(());
         };
         let json = (kind(path) == Some(Kind::Json)).then(|| product.json(false)).transpose()?;

@@ -31,7 +31,7 @@ struct Job<'a> {
 }
 
 pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
-    wanted(arguments).check(&plan::inputs(arguments))?;
+    Wanted::new(&arguments.writing, arguments.samples.is_some()).check(&plan::inputs(arguments))?;
     ensure!(arguments.samples.is_none_or(|n| n >= 2), "--samples must be at least 2");
     signal::listen()?;
     let clock = Instant::now();
@@ -41,7 +41,7 @@ pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
 
     let view = PointsView::new(table.dimension(), &table.coordinates)
         .map_err(|error| explain(error, &table))?;
-    let mut progress = Progress::new(arguments.quiet, options.iterations);
+    let mut progress = Progress::new(arguments.writing.quiet, options.iterations);
     signal::enter(Stage::Fitting);
     let clock = Instant::now();
     let result = fit_curve_observed(view, &options, &mut progress);
@@ -60,10 +60,8 @@ pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
     let mut job = Job { table: &table, fit: &fit, samples: arguments.samples, document };
     let report = &fit.report;
     let finish = Finish {
-        wanted: wanted(arguments),
-        quiet: arguments.quiet,
-        geometry: arguments.geometry,
-        method: arguments.method,
+        wanted: Wanted::new(&arguments.writing, arguments.samples.is_some()),
+        method: arguments.iteration.method,
         run: Run {
             termination: report.termination,
             residual_target: report.residual_target,
@@ -72,13 +70,4 @@ pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
         },
     };
     finish.finish(&mut job, print::report)
-}
-
-fn wanted(arguments: &CurveArguments) -> Wanted<'_> {
-    Wanted {
-        output: &arguments.output,
-        report: arguments.report.as_deref(),
-        json: arguments.json,
-        samples: arguments.samples.is_some(),
-    }
 }

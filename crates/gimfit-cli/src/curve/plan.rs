@@ -20,11 +20,16 @@ impl Plan {
             !(arguments.input.abscissa.is_some() && arguments.parameters.is_some()),
             "--abscissa and --parameters both give the parameters; use one of them"
         );
-        let method = method(arguments.method, arguments.bandwidth)?;
-        let weight = weight(&arguments.weight)?;
+        let method = method(arguments.iteration.method, arguments.iteration.bandwidth)?;
+        let weight = weight(&arguments.iteration.weight)?;
         let mut table = input::points(&arguments.input)?;
         let numbers = table.coordinates.len();
-        ensure_kept_fits_fit(&arguments.keep, arguments.iterations, numbers, &table.source)?;
+        ensure_kept_fits_fit(
+            &arguments.iteration.keep,
+            arguments.iteration.iterations,
+            numbers,
+            &table.source,
+        )?;
         if arguments.sort {
             table.sort_by_abscissa();
         }
@@ -35,10 +40,10 @@ impl Plan {
             knot_placement: arguments.knots.as_ref().map(knot_placement).transpose()?,
             method,
             weight,
-            iterations: arguments.iterations,
-            residual: arguments.residual,
+            iterations: arguments.iteration.iterations,
+            residual: arguments.iteration.residual,
             duplicates: arguments.duplicates.into(),
-            keep: arguments.keep.clone(),
+            keep: arguments.iteration.keep.clone(),
         };
         Ok(Self { table, options })
     }
@@ -53,7 +58,7 @@ pub(super) fn inputs(arguments: &CurveArguments) -> Vec<(&str, &Path)> {
     if let Some(RuleOrFile::File(path)) = &arguments.knots {
         inputs.push(("--knots", path));
     }
-    if let Some(path) = weight_file(&arguments.weight) {
+    if let Some(path) = weight_file(&arguments.iteration.weight) {
         inputs.push(("--weight", path));
     }
     inputs

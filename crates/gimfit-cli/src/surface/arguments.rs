@@ -1,8 +1,7 @@
 //! What can be typed after `gimfit surface`. Choices for the two directions are given as one, for
 //! both, or as two with a comma between: u (rows), then v (columns).
 
-use crate::arguments::{KnotRule, MethodChoice};
-use crate::values;
+use crate::arguments::{IterationArguments, KnotRule, WritingArguments};
 use clap::{Args, ValueEnum};
 use gimfit_io::grids::{GridFormatChoice, parse_shape};
 use gimfit_io::points::{ColumnChoice, DecimalMark, Delimiter, UnknownChoice};
@@ -25,11 +24,6 @@ pub(crate) struct SurfaceArguments {
     /// heights, an ESRI ASCII grid, NumPy .npy; - for standard input
     #[arg(value_name = "GRID")]
     pub(crate) grid: PathBuf,
-
-    /// File to write; by its ending a document (.json), control points or samples (.csv), or a
-    /// picture (.svg, .png). May be given several times; - writes the document to standard output
-    #[arg(short, long, value_name = "FILE", help_heading = "Writing")]
-    pub(crate) output: Vec<PathBuf>,
 
     /// Rows and columns of a file that does not tell them, such as 20x30
     #[arg(long, value_name = "MxN", value_parser = parse_shape, help_heading = "Reading")]
@@ -83,73 +77,20 @@ pub(crate) struct SurfaceArguments {
     #[arg(long, value_name = "RULE[,RULE]", help_heading = "Surface")]
     pub(crate) knots: Option<Pair<KnotRule>>,
 
-    /// Rule that moves the control points
-    #[arg(
-        long,
-        value_enum,
-        default_value = "auto",
-        value_name = "METHOD",
-        help_heading = "Iteration"
-    )]
-    pub(crate) method: MethodChoice,
+    #[command(flatten)]
+    pub(crate) iteration: IterationArguments,
 
-    /// Weight for weighted and sor: auto (the best one), a number between 0 and 2, or for weighted
-    /// a file of one number per point, row by row
-    #[arg(
-        long,
-        default_value = "auto",
-        value_name = "W|auto|FILE",
-        allow_negative_numbers = true,
-        help_heading = "Iteration"
-    )]
-    pub(crate) weight: String,
-
-    /// Half bandwidth kept by the preconditioned method [default: the whole band]
-    #[arg(long, value_name = "Q", help_heading = "Iteration")]
-    pub(crate) bandwidth: Option<usize>,
-
-    /// Run the columns to their limit, then the rows, instead of both in every step
+    /// Run the columns to their limit, then the rows, instead of both in every step, with the
+    /// iterations allowed in each
     #[arg(long, help_heading = "Iteration")]
     pub(crate) per_direction: bool,
 
-    /// Most iterations; with --per-direction, in each
-    #[arg(long, default_value_t = 1000, value_name = "N", help_heading = "Iteration")]
-    pub(crate) iterations: usize,
-
-    /// Largest residual to reach, in the unit of the points; 0 runs all iterations [default: 1e-12
-    /// of the extent, or what rounding allows]
-    #[arg(
-        long,
-        value_name = "T",
-        allow_negative_numbers = true,
-        value_parser = values::number,
-        help_heading = "Iteration"
-    )]
-    pub(crate) residual: Option<f64>,
-
-    /// Iterations whose fits are kept, such as 0,2,4,15,30
-    #[arg(long, value_name = "LIST", value_delimiter = ',', help_heading = "Iteration")]
-    pub(crate) keep: Vec<usize>,
+    #[command(flatten)]
+    pub(crate) writing: WritingArguments,
 
     /// Samples in u and v written to .csv files instead of control points, such as 100x80
     #[arg(long, value_name = "MxN", value_parser = parse_shape, help_heading = "Writing")]
     pub(crate) samples: Option<(usize, usize)>,
-
-    /// File for the report: .json, otherwise text
-    #[arg(long, value_name = "FILE", help_heading = "Writing")]
-    pub(crate) report: Option<PathBuf>,
-
-    /// Print nothing but errors and warnings
-    #[arg(long, short, help_heading = "Writing")]
-    pub(crate) quiet: bool,
-
-    /// Print the document instead of the report, without the geometry
-    #[arg(long, help_heading = "Writing")]
-    pub(crate) json: bool,
-
-    /// With --json: print geometry, parameters and kept fits too
-    #[arg(long, requires = "json", help_heading = "Writing")]
-    pub(crate) geometry: bool,
 }
 
 fn yes_or_no(text: &str) -> Result<bool, UnknownChoice> {

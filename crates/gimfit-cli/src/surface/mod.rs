@@ -33,7 +33,7 @@ struct Job<'a> {
 const MOST_SAMPLES: usize = 1_000_000_000;
 
 pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
-    wanted(arguments).check(&plan::inputs(arguments))?;
+    Wanted::new(&arguments.writing, arguments.samples.is_some()).check(&plan::inputs(arguments))?;
     ensure!(
         arguments.samples.is_none_or(|(m, n)| {
             m.min(n) >= 2 && m.checked_mul(n).is_some_and(|count| count <= MOST_SAMPLES)
@@ -50,7 +50,7 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
     let explain = |error| explain(error, &grid);
     let view = GridView::new([grid.rows, grid.columns], grid.dimension(), &grid.coordinates)
         .map_err(explain)?;
-    let mut progress = Progress::new(arguments.quiet, options.iterations);
+    let mut progress = Progress::new(arguments.writing.quiet, options.iterations);
     signal::enter(Stage::Fitting);
     let clock = Instant::now();
     let result = fit_surface_observed(view, &options, &mut progress);
@@ -74,10 +74,8 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
     let mut job = Job { grid: &grid, fit: &fit, samples: arguments.samples, document };
     let report = &fit.report;
     let finish = Finish {
-        wanted: wanted(arguments),
-        quiet: arguments.quiet,
-        geometry: arguments.geometry,
-        method: arguments.method,
+        wanted: Wanted::new(&arguments.writing, arguments.samples.is_some()),
+        method: arguments.iteration.method,
         run: Run {
             termination: report.termination,
             residual_target: report.residual_target,
@@ -86,15 +84,6 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
         },
     };
     finish.finish(&mut job, print::report)
-}
-
-fn wanted(arguments: &SurfaceArguments) -> Wanted<'_> {
-    Wanted {
-        output: &arguments.output,
-        report: arguments.report.as_deref(),
-        json: arguments.json,
-        samples: arguments.samples.is_some(),
-    }
 }
 
 /// Errors of the library in the words of the file: points by their row and column.

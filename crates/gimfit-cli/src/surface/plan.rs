@@ -16,8 +16,8 @@ pub(super) struct Plan {
 
 impl Plan {
     pub(super) fn new(arguments: &SurfaceArguments) -> anyhow::Result<Self> {
-        let method = method(arguments.method, arguments.bandwidth)?;
-        let weight = weight(&arguments.weight)?;
+        let method = method(arguments.iteration.method, arguments.iteration.bandwidth)?;
+        let weight = weight(&arguments.iteration.weight)?;
         ensure!(
             matches!(arguments.index_columns.len(), 0 | 2),
             "--index-columns takes two columns with a comma between: that of the rows, then that of \
@@ -25,7 +25,12 @@ impl Plan {
         );
         let grid = read_grid(&arguments.grid, &reading(arguments))?;
         let numbers = grid.coordinates.len();
-        ensure_kept_fits_fit(&arguments.keep, arguments.iterations, numbers, &grid.source)?;
+        ensure_kept_fits_fit(
+            &arguments.iteration.keep,
+            arguments.iteration.iterations,
+            numbers,
+            &grid.source,
+        )?;
         let parameterization = |k: usize| -> anyhow::Result<Option<Parameterization>> {
             arguments.parameters.map(|rules| parameterization(rules.0[k], k, &grid)).transpose()
         };
@@ -37,9 +42,9 @@ impl Plan {
             method,
             weight,
             per_direction: arguments.per_direction,
-            iterations: arguments.iterations,
-            residual: arguments.residual,
-            keep: arguments.keep.clone(),
+            iterations: arguments.iteration.iterations,
+            residual: arguments.iteration.residual,
+            keep: arguments.iteration.keep.clone(),
         };
         for k in 0..2 {
             let axes = matches!(options.parameterizations[k], Some(Parameterization::Given(_)));
@@ -57,7 +62,7 @@ impl Plan {
 /// The files to read, by the argument that names them.
 pub(super) fn inputs(arguments: &SurfaceArguments) -> Vec<(&str, &Path)> {
     let mut inputs = vec![("GRID", arguments.grid.as_path())];
-    inputs.extend(weight_file(&arguments.weight).map(|path| ("--weight", path)));
+    inputs.extend(weight_file(&arguments.iteration.weight).map(|path| ("--weight", path)));
     inputs
 }
 
