@@ -56,17 +56,7 @@ pub(super) fn choose<'a>(
             }
         }
         Method::Pia => ("pia", Box::new(Pia)),
-        Method::Weighted => match weight {
-            IterationWeight::PerPoint(omega) => {
-                ("weighted", Box::new(PerPoint::new(omega.clone())))
-            }
-            IterationWeight::Same(omega) => ("weighted", Box::new(Weighted::new(*omega))),
-            IterationWeight::Auto => {
-                let omega = Weighted::best_for(smallest()?);
-                choices.push(format!("weight: {omega:.6}, best for the smallest eigenvalue"));
-                ("weighted", Box::new(Weighted::new(omega)))
-            }
-        },
+        Method::Weighted => ("weighted", weighted(weight, &mut smallest, &mut choices)?),
         Method::Jacobi => ("jacobi", Box::new(Jacobi::new(operator))),
         Method::GaussSeidel => ("gauss-seidel", Box::new(GaussSeidel::new(operator))),
         Method::Sor => {
@@ -91,6 +81,23 @@ pub(super) fn choose<'a>(
         }
     };
     Ok(ChosenRule { rule, name, choices, smallest_eigenvalue: eigenvalue })
+}
+
+/// The rule of weighted PIA; `smallest` finds the smallest eigenvalue where the weight is left to us.
+pub(super) fn weighted(
+    weight: &IterationWeight,
+    smallest: impl FnOnce() -> Result<f64, Error>,
+    choices: &mut Vec<String>,
+) -> Result<Box<dyn UpdateRule>, Error> {
+    Ok(match weight {
+        IterationWeight::PerPoint(omega) => Box::new(PerPoint::new(omega.clone())),
+        IterationWeight::Same(omega) => Box::new(Weighted::new(*omega)),
+        IterationWeight::Auto => {
+            let omega = Weighted::best_for(smallest()?);
+            choices.push(format!("weight: {omega:.6}, best for the smallest eigenvalue"));
+            Box::new(Weighted::new(omega))
+        }
+    })
 }
 
 pub(super) fn check_weight(

@@ -1,6 +1,6 @@
 //! From a named method to a rule on a grid of points.
 
-use super::method::{ChosenRule, choose};
+use super::method::{ChosenRule, check_weight, choose, weighted};
 use super::{IterationWeight, Method};
 use crate::Error;
 use crate::collocation::{
@@ -8,8 +8,7 @@ use crate::collocation::{
 };
 use crate::iteration::UpdateRule;
 use crate::iteration::update::{
-    Across, Along, Both, Chebyshev, GaussSeidel, Jacobi, PerPoint, Pia, Preconditioned, Staged,
-    Weighted,
+    Across, Along, Both, Chebyshev, GaussSeidel, Jacobi, Pia, Preconditioned, Staged,
 };
 
 /// The operators of both directions.
@@ -33,7 +32,7 @@ pub(super) fn choose_both<'a>(
     dimension: usize,
     gradual: usize,
 ) -> Result<ChosenRule<'a>, Error> {
-    super::method::check_weight(method, weight, directions.points())?;
+    check_weight(method, weight, directions.points())?;
     let Directions { u, v } = directions;
     let columns = v.points();
     let mut choices = Vec::new();
@@ -67,17 +66,7 @@ pub(super) fn choose_both<'a>(
             ("preconditioned", Box::new(banded(None)?))
         }
         Method::Pia => ("pia", Box::new(Pia)),
-        Method::Weighted => match weight {
-            IterationWeight::PerPoint(omega) => {
-                ("weighted", Box::new(PerPoint::new(omega.clone())))
-            }
-            IterationWeight::Same(omega) => ("weighted", Box::new(Weighted::new(*omega))),
-            IterationWeight::Auto => {
-                let omega = Weighted::best_for(smallest()?);
-                choices.push(format!("weight: {omega:.6}, best for the smallest eigenvalue"));
-                ("weighted", Box::new(Weighted::new(omega)))
-            }
-        },
+        Method::Weighted => ("weighted", weighted(weight, &mut smallest, &mut choices)?),
         Method::Jacobi => ("jacobi", Box::new(Both::new(Jacobi::new(u), Jacobi::new(v), columns))),
         Method::GaussSeidel => {
             ("gauss-seidel", Box::new(Both::new(GaussSeidel::new(u), GaussSeidel::new(v), columns)))
