@@ -121,3 +121,20 @@ fn refusals_name_the_cell_the_row_or_the_option() {
     assert!(!text(&run.get_output().stderr).is_empty());
     assert_eq!(fs::read_to_string(at.join("grid.csv")).unwrap(), matrix);
 }
+
+#[test]
+fn parameters_of_the_file_that_are_left_aside_are_told_in_print_and_document() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let mut grid = String::from("u,v,x,y,z\n");
+    for (i, j) in (0..16).map(|k| (k / 4, k % 4)) {
+        writeln!(grid, "{i},{j},{i},{j},{}", (i * j) % 3).unwrap();
+    }
+    fs::write(at.join("grid.csv"), grid).unwrap();
+    let told = |line: &str| {
+        let run = gimfit(at, line).code(0);
+        text(&run.get_output().stdout).contains("--parameters axes takes them")
+    };
+    assert!(told("surface grid.csv") && told("surface grid.csv --json"));
+    assert!(!told("surface grid.csv --parameters axes"));
+}

@@ -57,17 +57,17 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
     let fitted = clock.elapsed().as_secs_f64();
     signal::enter(Stage::Writing);
     progress.finish();
-    let fit = result.map_err(explain)?;
+    let mut fit = result.map_err(explain)?;
+    if unused {
+        fit.report.choices.push(
+            "parameters: those in the file are left aside; --parameters axes takes them".into(),
+        );
+    }
 
     let mut document = surface_document_of(&fit);
     document.coordinate_names = Some(grid.column_names.clone());
     if let Some(report) = &mut document.report {
         report.source = Some(grid.source.clone());
-        if unused {
-            report.choices.push(
-                "parameters: those in the file are left aside; --parameters axes takes them".into(),
-            );
-        }
         report.choices.splice(0..0, grid.notes.iter().map(|note| format!("reading: {note}")));
         report.seconds = Some(Seconds { read, fit: fitted, write: None });
     }
