@@ -14,7 +14,7 @@ const METHODS_SIZE: usize = 100_000;
 /// Fits, and makes sure that 1e-12 of the extent was reached.
 fn fit(points: &[f64], options: &CurveOptions) -> CurveFit {
     let fit = fit_curve(PointsView::new(3, points).unwrap(), options).unwrap();
-    assert!(fit.report.converged(), "{:?}", fit.report.termination);
+    assert!(fit.report.converged(), "{:?}", fit.report.run.termination);
     fit
 }
 

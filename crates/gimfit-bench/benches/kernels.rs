@@ -4,9 +4,9 @@
 #![allow(missing_docs, clippy::unwrap_used)] // Criterion makes public functions; data are known good.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use gimfit::collocation::{BandFactors, CollocationOperator, Interpolation, interpolation};
+use gimfit::collocation::{CollocationMatrix, CollocationOperator, Interpolation, interpolation};
 use gimfit::fit::interpolate;
-use gimfit::iteration::update::{GaussSeidel, UpdateRule};
+use gimfit::iteration::update::{GaussSeidel, Step, UpdateRule};
 use gimfit::knots::place_knots;
 use gimfit::parameters::{Parameters, assign_parameters};
 use gimfit::{CurveOptions, KnotPlacement, KnotVector, Parameterization, PointsView};
@@ -105,7 +105,8 @@ fn gauss_seidel_sweep(criterion: &mut Criterion) {
         let operator = case.interpolation().operator;
         let mut rule = GaussSeidel::new(&operator);
         bencher.iter_custom(|repeats| {
-            in_place(repeats, &case.points, |vectors| rule.adjust(0, vectors, 3))
+            let step = Step { iteration: 0, control: &case.points, dimension: 3 };
+            in_place(repeats, &case.points, |vectors| rule.adjust(step, vectors))
         });
     });
 }
@@ -113,13 +114,13 @@ fn gauss_seidel_sweep(criterion: &mut Criterion) {
 fn band_factors(criterion: &mut Criterion) {
     over_sizes(criterion, "band factors", |bencher, case| {
         let operator = case.interpolation().operator;
-        bencher.iter_with_large_drop(|| BandFactors::new(&operator).unwrap());
+        bencher.iter_with_large_drop(|| operator.factor(None).unwrap());
     });
 }
 
 fn band_solve(criterion: &mut Criterion) {
     over_sizes(criterion, "band solve", |bencher, case| {
-        let factors = BandFactors::new(&case.interpolation().operator).unwrap();
+        let factors = case.interpolation().operator.factor(None).unwrap();
         bencher.iter_custom(|repeats| {
             in_place(repeats, &case.points, |vectors| factors.solve_in_place(vectors, 3))
         });

@@ -54,8 +54,8 @@ pub fn run(
         "max_res": residuals.largest,
         "rms": residuals.root_mean_square,
         "extent": residuals.extent,
-        "iterations": report.iterations,
-        "method": report.method,
+        "iterations": report.run.iterations,
+        "method": report.run.method,
         "converged": report.converged(),
     }))
 }

@@ -139,15 +139,15 @@ fn of_surface(document: &SurfaceDocument, name: String) -> Facts {
             facts.add("fitted_to", source.clone());
         }
         facts.add("points", report.points.to_vec());
-        facts.add("method", report.method.clone());
+        facts.add("method", report.run.method.clone());
         facts.add("parameters", report.parameterizations.to_vec());
         facts.add("knot_placement", report.knot_placements.to_vec());
-        facts.add("iterations", report.iterations);
-        facts.add("ended_by", report.termination.clone());
-        facts.add("largest_residual", report.max_residual);
-        facts.add("rms_residual", report.rms_residual);
+        facts.add("iterations", report.run.iterations);
+        facts.add("ended_by", report.run.termination.clone());
+        facts.add("largest_residual", report.run.max_residual);
+        facts.add("rms_residual", report.run.rms_residual);
         facts.add("largest_deviation", report.max_deviation);
-        facts.add("extent", report.extent);
+        facts.add("extent", report.run.extent);
     }
     if let Some(sequence) = &document.sequence {
         let kept: Vec<usize> = sequence.iter().map(|kept| kept.entry.iteration).collect();
@@ -177,15 +177,15 @@ fn of_document(document: &Document, name: String) -> Facts {
             facts.add("fitted_to", source.clone());
         }
         facts.add("points", report.points);
-        facts.add("method", report.method.clone());
+        facts.add("method", report.run.method.clone());
         facts.add("parameters", report.parameterization.clone());
         facts.add("knot_placement", report.knot_placement.clone());
-        facts.add("iterations", report.iterations);
-        facts.add("ended_by", report.termination.clone());
-        facts.add("largest_residual", report.max_residual);
-        facts.add("rms_residual", report.rms_residual);
+        facts.add("iterations", report.run.iterations);
+        facts.add("ended_by", report.run.termination.clone());
+        facts.add("largest_residual", report.run.max_residual);
+        facts.add("rms_residual", report.run.rms_residual);
         facts.add("largest_deviation", report.max_deviation);
-        facts.add("extent", report.extent);
+        facts.add("extent", report.run.extent);
     }
     if let Some(sequence) = &document.sequence {
         let kept: Vec<usize> = sequence.iter().map(|kept| kept.iteration).collect();

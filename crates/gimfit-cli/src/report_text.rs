@@ -1,5 +1,7 @@
 //! Lines of a report that a person reads: a label, then a sentence.
 
+use gimfit::RunReport;
+use gimfit_io::document::Seconds;
 use std::fmt::Write;
 
 /// A report under way.
@@ -23,21 +25,81 @@ impl Lines {
         }
     }
 
+    /// What was chosen, run, found and written: the same for every geometry.
+    pub(crate) fn run(&mut self, account: &RunLines<'_>) {
+        let run = account.run;
+        self.add_all("chosen", &run.choices);
+        self.add(
+            "run",
+            &format!(
+                "{}, {} iteration{}, ended by {} (target {:.3e})",
+                run.method,
+                run.iterations,
+                if run.iterations == 1 { "" } else { "s" },
+                run.termination,
+                run.residual_target
+            ),
+        );
+        if run.iteration_returned != run.iterations {
+            self.add(
+                "",
+                &format!("the fit returned is that of iteration {}", run.iteration_returned),
+            );
+        }
+        self.add(
+            "residual",
+            &format!(
+                "largest {:.3e} at {}, rms {:.3e}; {:.1e} of the extent {}",
+                run.max_residual,
+                account.max_residual_place,
+                run.rms_residual,
+                share(run.max_residual, run.extent),
+                length(run.extent)
+            ),
+        );
+        self.add(
+            "deviation",
+            &format!("largest {:.3e} at {}", account.max_deviation, account.max_deviation_place),
+        );
+        if let Some(smallest) = run.smallest_eigenvalue {
+            self.add("spectrum", &format!("smallest eigenvalue {smallest:.6e}"));
+        }
+        if let Some(seconds) = account.seconds {
+            let write = seconds.write.map(|s| format!(", write {}", time(s))).unwrap_or_default();
+            let (read, fit) = (time(seconds.read), time(seconds.fit));
+            self.add("time", &format!("read {read}, fit {fit}{write}"));
+        }
+        for name in account.written {
+            self.add("wrote", name);
+        }
+    }
+
     pub(crate) fn finish(self) -> String {
         self.0
     }
 }
 
-pub(crate) fn share(part: f64, whole: f64) -> f64 {
+/// What [`Lines::run`] tells of.
+pub(crate) struct RunLines<'a> {
+    pub(crate) run: &'a RunReport,
+    pub(crate) max_residual_place: String,
+    pub(crate) max_deviation: f64,
+    pub(crate) max_deviation_place: String,
+    pub(crate) seconds: Option<Seconds>,
+    /// Files, a line each.
+    pub(crate) written: &'a [String],
+}
+
+fn share(part: f64, whole: f64) -> f64 {
     if whole > 0.0 { part / whole } else { 0.0 }
 }
 
 /// A length in plain digits where they are few.
-pub(crate) fn length(x: f64) -> String {
+fn length(x: f64) -> String {
     if (1e-4..1e9).contains(&x) { format!("{x:.6}") } else { format!("{x:.6e}") }
 }
 
-pub(crate) fn time(seconds: f64) -> String {
+fn time(seconds: f64) -> String {
     if seconds < 1e-3 {
         format!("{:.0} us", seconds * 1e6)
     } else if seconds < 1.0 {

@@ -59,7 +59,7 @@ fn curves_pass_through_real_points() {
                 let control: Rows =
                     found.curve.control_points().iter().map(<[f64]>::to_vec).collect();
                 let scale =
-                    control.concat().iter().fold(found.report.extent, |m, x| m.max(x.abs()));
+                    control.concat().iter().fold(found.report.run.extent, |m, x| m.max(x.abs()));
                 let data = rows(&table.coordinates, table.dimension());
                 // Every third point keeps the recursion affordable.
                 for (point, &t) in data.iter().zip(&found.parameters).step_by(3) {
@@ -93,9 +93,9 @@ fn histories_on_real_points_are_those_of_dense_iterations() {
                 CurveOptions { method, residual: Some(0.0), iterations: 6, ..Default::default() };
             let found = fit(&table, &options);
             let expected = dense::residual_history(&matrix, &data, step, 6);
-            for (entry, expected) in found.report.history.iter().zip(&expected) {
+            for (entry, expected) in found.report.run.history.iter().zip(&expected) {
                 let gap = (entry.max_residual - expected).abs();
-                assert!(gap < 1e-11 * found.report.extent, "{name} {method:?}: {gap:e}");
+                assert!(gap < 1e-11 * found.report.run.extent, "{name} {method:?}: {gap:e}");
             }
         }
     }
@@ -154,7 +154,7 @@ fn a_run_that_converged_is_below_the_target_it_reports() {
             let options = CurveOptions { degree, ..Default::default() };
             let report = fit(&table, &options).report;
             if report.converged() {
-                assert!(report.max_residual <= report.residual_target, "{name} {degree}");
+                assert!(report.run.max_residual <= report.run.residual_target, "{name} {degree}");
             }
         }
     }

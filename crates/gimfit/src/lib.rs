@@ -9,7 +9,7 @@
 //! let points = [[0.0, 0.0], [1.0, 1.5], [2.5, 2.0], [4.0, 0.5], [5.0, 1.0]];
 //! let options = CurveOptions { method: Method::Pia, keep: vec![0, 2, 4], ..Default::default() };
 //! let fit = fit_curve(&points, &options)?;
-//! assert!(fit.report.converged() && fit.report.max_residual < 1e-11);
+//! assert!(fit.report.converged() && fit.report.run.max_residual < 1e-11);
 //! assert_eq!(fit.sequence.len(), 3);
 //! # Ok::<(), gimfit::Error>(())
 //! ```
@@ -62,7 +62,7 @@ pub use iteration::{HistoryEntry, Termination};
 pub use knots::{KnotPlacement, KnotVector};
 pub use parameters::Parameterization;
 pub use points::{Duplicates, GridView, PointGrid, Points, PointsView};
-pub use report::{CurveReport, SurfaceReport};
+pub use report::{CurveReport, RunReport, SurfaceReport};
 
 /// The Rust examples of the README and of the documentation pages, run as tests.
 #[cfg(doctest)]

@@ -98,14 +98,14 @@ fn check(dimension: usize, coordinates: &[f64], options: &CurveOptions) {
             assert!(finite(fit.difference_vectors.coordinates()));
             let report = &fit.report;
             assert!(finite(&[
-                report.max_residual,
-                report.rms_residual,
+                report.run.max_residual,
+                report.run.rms_residual,
                 report.max_deviation,
-                report.extent,
-                report.residual_target
+                report.run.extent,
+                report.run.residual_target
             ]));
-            assert!(report.max_deviation <= report.max_residual);
-            assert!(report.iterations <= options.iterations);
+            assert!(report.max_deviation <= report.run.max_residual);
+            assert!(report.run.iterations <= options.iterations);
             let (start, end) = fit.curve.domain();
             assert!(fit.parameters.iter().all(|t| (start..=end).contains(t)));
             for t in fit.curve.equal_steps(7) {
@@ -131,8 +131,12 @@ fn check_surface(
             assert!(finite(&fit.parameters[0]) && finite(&fit.parameters[1]));
             assert!(finite(fit.difference_vectors.coordinates()));
             let report = &fit.report;
-            assert!(finite(&[report.max_residual, report.rms_residual, report.max_deviation]));
-            assert!(report.max_deviation <= report.max_residual);
+            assert!(finite(&[
+                report.run.max_residual,
+                report.run.rms_residual,
+                report.max_deviation
+            ]));
+            assert!(report.max_deviation <= report.run.max_residual);
             for (u, v) in fit.surface.knots()[0]
                 .equal_steps(4)
                 .into_iter()

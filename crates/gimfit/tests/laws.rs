@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // A test that cannot go on has failed.
 
-use gimfit::collocation::{BandFactors, interpolation, smallest_eigenvalue};
+use gimfit::collocation::{CollocationMatrix, interpolation, smallest_eigenvalue};
 use gimfit::knots::place_knots;
 use gimfit::parameters::{Parameters, assign_parameters};
 use gimfit::{
@@ -67,14 +67,14 @@ fn the_limit_interpolates_for_every_degree_knots_and_boundary() {
                     };
                     let fit = fit(&data, &options);
                     let case = format!("{degree} {closed} {placement:?} {count}");
-                    assert_eq!(fit.report.termination, Termination::Residual, "{case}");
+                    assert_eq!(fit.report.run.termination, Termination::Residual, "{case}");
                     let largest = rows(fit.curve.control_points())
                         .concat()
                         .iter()
                         .fold(0.0_f64, |m, x| m.max(x.abs()));
                     let residual = textbook_residual(&data, &fit);
                     assert!(
-                        residual <= 1e-13 * largest.max(fit.report.extent),
+                        residual <= 1e-13 * largest.max(fit.report.run.extent),
                         "{case}: {residual:e}"
                     );
                 }
@@ -119,10 +119,13 @@ fn residual_histories_are_those_of_dense_iterations() {
             };
             let found = fit(&data, &options);
             let expected = dense::residual_history(&matrix, &data, step, 25);
-            assert_eq!(found.report.history.len(), 26);
-            for (entry, expected) in found.report.history.iter().zip(&expected) {
+            assert_eq!(found.report.run.history.len(), 26);
+            for (entry, expected) in found.report.run.history.iter().zip(&expected) {
                 let gap = (entry.max_residual - expected).abs();
-                assert!(gap <= 1e-12 * found.report.extent.max(*expected), "{method:?} {degree}");
+                assert!(
+                    gap <= 1e-12 * found.report.run.extent.max(*expected),
+                    "{method:?} {degree}"
+                );
             }
         }
     }
@@ -144,7 +147,7 @@ fn kept_fits_are_the_iterates_of_pia() {
                 p = dense::pia_step(&matrix, &data, &p);
                 step += 1;
             }
-            assert!(close(&rows(&kept.control_points), &p, 1e-12 * found.report.extent));
+            assert!(close(&rows(&kept.control_points), &p, 1e-12 * found.report.run.extent));
         }
         assert!(found.report.converged());
     }
@@ -179,8 +182,8 @@ fn every_method_reaches_the_same_limit() {
             let options =
                 CurveOptions { method, closed, weight, iterations: 20_000, ..Default::default() };
             let found = fit(&data, &options);
-            assert!(found.report.converged(), "{method:?} {}", found.report.termination);
-            (rows(found.curve.control_points()), found.report.iterations)
+            assert!(found.report.converged(), "{method:?} {}", found.report.run.termination);
+            (rows(found.curve.control_points()), found.report.run.iterations)
         };
         let (limit, _) = run(Method::Auto, IterationWeight::Auto);
         let (_, plain) = run(Method::Pia, IterationWeight::Auto);
@@ -202,7 +205,7 @@ fn spectra_of_uniform_closed_curves_are_the_published_ones() {
     for (degree, expected) in (2..).zip(published) {
         let t = Parameters::closed((0..64).map(f64::from).collect(), 64.0).unwrap();
         let knots = place_knots(degree, &t, &KnotPlacement::Averaged).unwrap();
-        let factors = BandFactors::new(&interpolation(&t, &knots).unwrap().operator).unwrap();
+        let factors = interpolation(&t, &knots).unwrap().operator.factor(None).unwrap();
         let found = smallest_eigenvalue(&factors);
         assert!((found.estimate - expected).abs() < 1e-12, "{degree}: {found:?}");
     }
@@ -224,9 +227,8 @@ fn the_smallest_eigenvalue_lies_within_its_bounds() {
                 / x.concat().iter().map(|v| v * v).sum::<f64>().sqrt();
             x = y.iter().map(|row| vec![row[0] / growth]).collect();
         }
-        let found = smallest_eigenvalue(
-            &BandFactors::new(&interpolation(&t, &knots).unwrap().operator).unwrap(),
-        );
+        let found =
+            smallest_eigenvalue(&interpolation(&t, &knots).unwrap().operator.factor(None).unwrap());
         let exact = 1.0 / growth;
         let slack = 1e-9 * exact;
         assert!(found.lower <= exact + slack && exact <= found.upper + slack, "{found:?} {exact}");
@@ -339,15 +341,15 @@ fn any_spacing_is_met_at_rounding_level() {
                     .concat()
                     .iter()
                     .fold(0.0_f64, |m, x| m.max(x.abs()));
-                if report.max_residual > 1e-14 * largest.max(report.extent) {
+                if report.run.max_residual > 1e-14 * largest.max(report.run.extent) {
                     // Condition numbers beyond 1e17: no interpolant exists in doubles.
-                    assert_eq!(report.termination, Termination::Stalled);
+                    assert_eq!(report.run.termination, Termination::Stalled);
                     assert!(ratio >= 3.0 && degree >= 4, "{report:?}");
                     continue;
                 }
-                assert!(report.converged() || largest > 1e4 * report.extent, "{report:?}");
-                let warned = report.choices.iter().any(|choice| choice.starts_with("caution"));
-                assert_eq!(warned, largest > 1e3 * report.extent, "{report:?}");
+                assert!(report.converged() || largest > 1e4 * report.run.extent, "{report:?}");
+                let warned = report.run.choices.iter().any(|choice| choice.starts_with("caution"));
+                assert_eq!(warned, largest > 1e3 * report.run.extent, "{report:?}");
             }
         }
     }
@@ -357,7 +359,7 @@ fn any_spacing_is_met_at_rounding_level() {
     for closed in [false, true] {
         let found = fit(&data, &CurveOptions { closed, ..Default::default() });
         assert!(found.report.converged() && found.report.spacing_ratio > 1e5);
-        assert!(textbook_residual(&data, &found) < 1e-11 * found.report.extent);
+        assert!(textbook_residual(&data, &found) < 1e-11 * found.report.run.extent);
     }
 }
 
@@ -388,7 +390,7 @@ fn tied_ends_give_the_published_residuals() {
         (30, 6.01660e-8),
     ];
     for (iteration, expected) in published {
-        let residual = found.report.history[iteration].max_residual;
+        let residual = found.report.run.history[iteration].max_residual;
         assert!((residual - expected).abs() < 1e-5 * expected, "{iteration}: {residual:e}");
     }
     let control = rows(found.curve.control_points());
@@ -421,8 +423,8 @@ fn data_far_from_the_origin_are_met_as_well_as_doubles_can() {
     let data: Rows =
         (0..50).map(|j| vec![1e9 + 1e-3 * f64::from(j), 1e9 + 1e-3 * random.signed()]).collect();
     let found = fit(&data, &CurveOptions::default());
-    assert!(found.report.converged() && found.report.max_residual < 1e-6);
-    assert!(found.report.choices.iter().any(|choice| choice.contains("rounding")));
+    assert!(found.report.converged() && found.report.run.max_residual < 1e-6);
+    assert!(found.report.run.choices.iter().any(|choice| choice.contains("rounding")));
 }
 
 #[test]
@@ -431,10 +433,11 @@ fn a_diverging_run_returns_its_best_fit() {
     let data = graded(14, 10.0);
     let options = CurveOptions { method: Method::Jacobi, degree: 5, ..Default::default() };
     let found = fit(&data, &options);
-    assert_eq!(found.report.termination, Termination::Diverged);
-    let best = found.report.history.iter().map(|e| e.max_residual).fold(f64::INFINITY, f64::min);
-    assert_eq!(found.report.max_residual, best);
-    assert!(found.report.iteration_returned < found.report.iterations);
+    assert_eq!(found.report.run.termination, Termination::Diverged);
+    let best =
+        found.report.run.history.iter().map(|e| e.max_residual).fold(f64::INFINITY, f64::min);
+    assert_eq!(found.report.run.max_residual, best);
+    assert!(found.report.run.iteration_returned < found.report.run.iterations);
 }
 
 #[test]
@@ -493,13 +496,13 @@ fn closed_curves_of_uneven_spacing_are_as_well_met_as_open_ones() {
         for degree in [2, 3, 4, 5, 9] {
             let options = CurveOptions { degree, closed: true, ..Default::default() };
             let found = fit(&data, &options);
-            let wild = found.report.choices.iter().any(|choice| choice.starts_with("caution"));
+            let wild = found.report.run.choices.iter().any(|choice| choice.starts_with("caution"));
             assert!(found.report.converged() || wild, "{growth} {degree}: {:?}", found.report);
             assert!(!wild || degree >= 4, "{growth} {degree}");
             let scale = rows(found.curve.control_points())
                 .concat()
                 .iter()
-                .fold(found.report.extent, |m, x| m.max(x.abs()));
+                .fold(found.report.run.extent, |m, x| m.max(x.abs()));
             assert!(textbook_residual(&data, &found) <= 1e-13 * scale, "{growth} {degree}");
         }
     }
@@ -542,10 +545,10 @@ fn closed_curves_of_million_to_one_spacing_are_met_at_every_degree() {
             let scale = rows(found.curve.control_points())
                 .concat()
                 .iter()
-                .fold(found.report.extent, |m, x| m.max(x.abs()));
+                .fold(found.report.run.extent, |m, x| m.max(x.abs()));
             let residual = textbook_residual(&data, &found);
             assert!(residual <= 1e-13 * scale, "{seed} {degree}: {residual:e} at {scale:e}");
-            let wild = found.report.choices.iter().any(|choice| choice.starts_with("caution"));
+            let wild = found.report.run.choices.iter().any(|choice| choice.starts_with("caution"));
             assert!(found.report.converged() || wild, "{seed} {degree}: {:?}", found.report);
         }
     }

@@ -111,7 +111,7 @@ fn iterates_are_those_of_the_dense_kronecker_product() {
     }
     let data: Rows = points.chunks(3).map(<[f64]>::to_vec).collect();
     let expected = dense::residual_history(&kronecker, &data, dense::pia_step, 8);
-    for (entry, expected) in found.report.history.iter().zip(&expected) {
+    for (entry, expected) in found.report.run.history.iter().zip(&expected) {
         assert!((entry.max_residual - expected).abs() < 1e-12);
     }
     let mut p = data.clone();
@@ -162,7 +162,7 @@ fn every_method_reaches_the_same_limit() {
                     .zip(control(&limit).coordinates())
                     .fold(0.0_f64, |worst, (a, b)| worst.max((a - b).abs()));
                 assert!(gap < 1e-8, "{method:?} {per_direction}: {gap:e}");
-                steps.push((method, per_direction, found.report.iterations));
+                steps.push((method, per_direction, found.report.run.iterations));
             }
         }
         let count = |method, per_direction| {
@@ -209,7 +209,7 @@ fn the_surface_of_the_2004_paper_has_its_published_errors() {
         (30, 1.2695e-3, 5e-7),
     ];
     for (iteration, expected, half_unit) in printed {
-        let residual = found.report.history[iteration].max_residual;
+        let residual = found.report.run.history[iteration].max_residual;
         // The paper cuts digits off in places: one unit of the last, rather than half of one.
         assert!((residual - expected).abs() <= 2.0 * half_unit, "{iteration}: {residual:e}");
     }
@@ -318,7 +318,7 @@ fn collapsed_edges_and_heights_are_fitted() {
     let axis = |count: i32| Some(Parameterization::Given((0..count).map(f64::from).collect()));
     let options = SurfaceOptions { parameterizations: [axis(5), axis(8)], ..Default::default() };
     let found = fit_surface(view, &options).unwrap();
-    assert_eq!(found.report.termination, Termination::Residual);
+    assert_eq!(found.report.run.termination, Termination::Residual);
     assert!((found.surface.evaluate(2.0, 3.0).unwrap()[0] - heights[19]).abs() < 1e-12);
 }
 
@@ -334,7 +334,7 @@ fn the_deviation_is_measured_at_foot_points() {
     };
     let found = fit(shape, &points, &options);
     let report = &found.report;
-    assert!(report.max_deviation > 0.0 && report.max_deviation < report.max_residual);
+    assert!(report.max_deviation > 0.0 && report.max_deviation < report.run.max_residual);
     // A fine search around the point named finds nothing nearer.
     let [i, j] = report.max_deviation_index;
     let point = &points[(i * 9 + j) * 3..][..3];

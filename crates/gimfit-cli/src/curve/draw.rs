@@ -26,6 +26,7 @@ pub(super) fn figure(job: &Job<'_>) -> String {
     let greville = curve.knots().greville_abscissae();
     let data = fitted_points(job);
     let history: Vec<(usize, f64, f64)> = report
+        .run
         .history
         .iter()
         .filter(|entry| entry.max_residual.is_finite() && entry.rms_residual.is_finite())
@@ -59,10 +60,10 @@ pub(super) fn figure(job: &Job<'_>) -> String {
         degree_name(report.degree),
         report.points,
         report.control_points,
-        report.method,
-        report.iterations,
-        if report.iterations == 1 { "" } else { "s" },
-        report.max_residual
+        report.run.method,
+        report.run.iterations,
+        if report.run.iterations == 1 { "" } else { "s" },
+        report.run.max_residual
     );
     let residuals = fit.residuals();
     curve_figure_svg(&CurveFigure {
@@ -82,7 +83,7 @@ pub(super) fn figure(job: &Job<'_>) -> String {
             beziers: beziers.as_deref(),
         },
         residuals: &residuals,
-        extent: report.extent,
+        extent: report.run.extent,
         history: &history,
         sequence: &sequence,
     })

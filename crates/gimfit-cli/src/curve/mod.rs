@@ -54,8 +54,8 @@ pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
     document.coordinate_names = Some(table.column_names.clone());
     if let Some(report) = &mut document.report {
         report.source = Some(table.source.clone());
-        report.choices.splice(0..0, table.notes.iter().map(|note| format!("reading: {note}")));
-        report.seconds = Some(Seconds { read, fit: fitted, write: None });
+        report.run.choices.splice(0..0, table.notes.iter().map(|note| format!("reading: {note}")));
+        report.run.seconds = Some(Seconds { read, fit: fitted, write: None });
     }
     let mut job = Job { table: &table, fit: &fit, samples: arguments.samples, document };
     let report = &fit.report;
@@ -63,10 +63,10 @@ pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
         wanted: Wanted::new(&arguments.writing, arguments.samples.is_some()),
         method: arguments.iteration.method,
         run: Run {
-            termination: report.termination,
-            residual_target: report.residual_target,
-            max_residual: report.max_residual,
-            iterations: report.iterations,
+            termination: report.run.termination,
+            residual_target: report.run.residual_target,
+            max_residual: report.run.max_residual,
+            iterations: report.run.iterations,
         },
     };
     finish.finish(&mut job, print::report)

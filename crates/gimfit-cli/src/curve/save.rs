@@ -39,7 +39,7 @@ impl Product for Job<'_> {
     }
 
     fn set_write_time(&mut self, seconds: f64) {
-        if let Some(times) = self.document.report.as_mut().and_then(|r| r.seconds.as_mut()) {
+        if let Some(times) = self.document.report.as_mut().and_then(|r| r.run.seconds.as_mut()) {
             times.write = Some(seconds);
         }
     }

@@ -149,7 +149,7 @@ fn at_the_data(function: &Function, steps: usize) -> anyhow::Result<Vec<f64>> {
         residual: Some(0.0),
         ..CurveOptions::default()
     };
-    let history = fit(function, steps, options)?.report.history;
+    let history = fit(function, steps, options)?.report.run.history;
     Ok(history.iter().map(|entry| entry.max_residual).collect())
 }
 

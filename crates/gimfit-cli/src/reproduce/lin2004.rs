@@ -33,7 +33,7 @@ pub(super) fn recompute() -> anyhow::Result<Table> {
         ..SurfaceOptions::default()
     };
     let sum: f64 = fit_surface(grid, &options(0))?.residuals().iter().sum();
-    let history = fit_surface(grid, &options(30))?.report.history;
+    let history = fit_surface(grid, &options(30))?.report.run.history;
     let entries = PRINTED.iter().map(|&(k, printed, digits)| {
         let largest = history.get(k).map_or(f64::NAN, |entry| entry.max_residual);
         // The paper's first entry is a sum where all others are a maximum.

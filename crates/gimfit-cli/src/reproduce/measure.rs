@@ -1,8 +1,10 @@
 //! Eigenvalues, rates and decays measured on the library's operators until they stand still.
 
 use gimfit::Error;
-use gimfit::collocation::{BandFactors, BandedCollocation, CollocationOperator, interpolation};
-use gimfit::iteration::UpdateRule;
+use gimfit::collocation::{
+    BandedCollocation, CollocationMatrix, CollocationOperator, interpolation,
+};
+use gimfit::iteration::{Step, UpdateRule};
 use gimfit::knots::{KnotPlacement, place_knots};
 use gimfit::parameters::Parameters;
 
@@ -26,7 +28,7 @@ fn operator(degree: usize, parameters: &Parameters) -> Result<BandedCollocation,
 /// 1e-3, which is enough for weights but not for tables.
 pub(super) fn smallest_eigenvalue(operator: &BandedCollocation) -> Result<f64, Error> {
     const MOST_STEPS: usize = 4000;
-    let factors = BandFactors::new(operator)?;
+    let factors = operator.factor(None)?;
     // Close to the eigenvector: that of the largest frequency.
     let mut x: Vec<f64> =
         (0..factors.size()).map(|j| if j % 2 == 0 { 1.0 } else { -1.0 }).collect();
@@ -60,14 +62,14 @@ pub(super) fn rate(operator: &BandedCollocation, rule: &mut dyn UpdateRule) -> f
     let mut adjusting = vec![0.0; count];
     let mut change = vec![0.0; count];
     let mut logarithm = 0.0;
-    for step in 0..FIRST + MEASURED {
+    for iteration in 0..FIRST + MEASURED {
         adjusting.copy_from_slice(&residual);
-        rule.adjust(step, &mut adjusting, 1);
+        rule.adjust(Step { iteration, control: &residual, dimension: 1 }, &mut adjusting);
         operator.apply(&adjusting, 1, &mut change);
         residual.iter_mut().zip(&change).for_each(|(r, change)| *r -= change);
         let left = norm(&residual);
         residual.iter_mut().for_each(|r| *r /= left);
-        if step >= FIRST {
+        if iteration >= FIRST {
             logarithm += left.ln();
         }
     }
@@ -79,7 +81,7 @@ pub(super) fn rate(operator: &BandedCollocation, rule: &mut dyn UpdateRule) -> f
 /// is not there yet.
 pub(super) fn decay_of_inverse(operator: &BandedCollocation) -> Result<f64, Error> {
     const SMALL: f64 = 1e-5;
-    let factors = BandFactors::new(operator)?;
+    let factors = operator.factor(None)?;
     let mut column = vec![0.0; factors.size()];
     let middle = column.len() / 2;
     column[middle] = 1.0;

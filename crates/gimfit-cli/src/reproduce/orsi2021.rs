@@ -96,6 +96,6 @@ fn residuals(method: Method, weight: IterationWeight) -> anyhow::Result<Vec<f64>
         residual: Some(0.0),
         ..CurveOptions::default()
     };
-    let history = fit_curve(&points, &options)?.report.history;
+    let history = fit_curve(&points, &options)?.report.run.history;
     Ok(history.iter().map(|entry| entry.max_residual).collect())
 }

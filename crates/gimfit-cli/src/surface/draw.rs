@@ -30,12 +30,13 @@ pub(super) fn figure(job: &Job<'_>) -> String {
         report.points[1],
         report.control_points[0],
         report.control_points[1],
-        report.method,
-        report.iterations,
-        if report.iterations == 1 { "" } else { "s" },
-        report.max_residual
+        report.run.method,
+        report.run.iterations,
+        if report.run.iterations == 1 { "" } else { "s" },
+        report.run.max_residual
     );
     let history: Vec<(usize, f64, f64)> = report
+        .run
         .history
         .iter()
         .filter(|entry| entry.max_residual.is_finite() && entry.rms_residual.is_finite())
@@ -61,7 +62,7 @@ pub(super) fn figure(job: &Job<'_>) -> String {
         mesh_parameters: [&mesh[0], &mesh[1]],
         mesh_points: &mesh_points,
         residuals: &fit.residuals(),
-        extent: report.extent,
+        extent: report.run.extent,
         history: &history,
     })
 }

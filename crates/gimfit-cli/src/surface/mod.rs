@@ -59,7 +59,7 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
     progress.finish();
     let mut fit = result.map_err(explain)?;
     if unused {
-        fit.report.choices.push(
+        fit.report.run.choices.push(
             "parameters: those in the file are left aside; --parameters axes takes them".into(),
         );
     }
@@ -68,8 +68,8 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
     document.coordinate_names = Some(grid.column_names.clone());
     if let Some(report) = &mut document.report {
         report.source = Some(grid.source.clone());
-        report.choices.splice(0..0, grid.notes.iter().map(|note| format!("reading: {note}")));
-        report.seconds = Some(Seconds { read, fit: fitted, write: None });
+        report.run.choices.splice(0..0, grid.notes.iter().map(|note| format!("reading: {note}")));
+        report.run.seconds = Some(Seconds { read, fit: fitted, write: None });
     }
     let mut job = Job { grid: &grid, fit: &fit, samples: arguments.samples, document };
     let report = &fit.report;
@@ -77,10 +77,10 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
         wanted: Wanted::new(&arguments.writing, arguments.samples.is_some()),
         method: arguments.iteration.method,
         run: Run {
-            termination: report.termination,
-            residual_target: report.residual_target,
-            max_residual: report.max_residual,
-            iterations: report.iterations,
+            termination: report.run.termination,
+            residual_target: report.run.residual_target,
+            max_residual: report.run.max_residual,
+            iterations: report.run.iterations,
         },
     };
     finish.finish(&mut job, print::report)

@@ -6,13 +6,15 @@
 mod model;
 mod read;
 mod rows;
+mod run;
 mod surface;
 
-pub use model::{CurveGeometry, Document, Geometry, HistoryRow, ReportData, Seconds, SequenceFit};
+pub use model::{CurveGeometry, Document, Geometry, ReportData, SequenceFit};
 pub use read::{
     AnyDocument, DocumentError, is_document, parse_any_document, parse_document, read_document,
 };
 pub use rows::PointRows;
+pub use run::{HistoryRow, RunData, Seconds};
 pub use surface::{
     NetFit, SurfaceDocument, SurfaceGeometry, SurfaceKind, SurfaceReportData, surface_document_of,
 };

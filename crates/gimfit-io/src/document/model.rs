@@ -1,6 +1,7 @@
 //! The document as data.
 
 use super::PointRows;
+use super::run::{RunData, number_or_null};
 use gimfit::{Curve, CurveReport, Error, KeptFit, KnotVector, Points};
 use serde::{Deserialize, Serialize};
 
@@ -151,42 +152,6 @@ impl SequenceFit {
     }
 }
 
-/// Residuals after an iteration.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct HistoryRow {
-    /// Steps taken before.
-    pub iteration: usize,
-    /// Largest norm of a difference vector; null where a diverging run left the range of doubles.
-    #[serde(with = "number_or_null")]
-    pub max_residual: f64,
-    /// Root mean square of the norms; null likewise.
-    #[serde(with = "number_or_null")]
-    pub rms_residual: f64,
-}
-
-impl HistoryRow {
-    /// Takes an entry over.
-    #[must_use]
-    pub fn of(entry: &gimfit::HistoryEntry) -> Self {
-        Self {
-            iteration: entry.iteration,
-            max_residual: entry.max_residual,
-            rms_residual: entry.rms_residual,
-        }
-    }
-}
-
-/// Measured times.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct Seconds {
-    /// Reading the points.
-    pub read: f64,
-    /// Fitting.
-    pub fit: f64,
-    /// Writing the files before this document; null in a document written before it was known.
-    pub write: Option<f64>,
-}
-
 /// The account of a fit. Lengths are in the unit of the data; indices count the points fitted,
 /// from 0.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -208,39 +173,17 @@ pub struct ReportData {
     pub parameterization: String,
     /// How knots were placed.
     pub knot_placement: String,
-    /// The rule that ran.
-    pub method: String,
-    /// Sentences on what was chosen, and why.
-    pub choices: Vec<String>,
-    /// Steps run.
-    pub iterations: usize,
-    /// Steps behind the fit returned.
-    pub iteration_returned: usize,
-    /// `residual`, `iterations`, `stalled`, `diverged` or `cancelled`.
-    pub termination: String,
-    /// The residual aimed at.
-    pub residual_target: f64,
-    /// Diagonal of the data's bounding box.
-    pub extent: f64,
-    /// Largest norm of a difference vector.
-    pub max_residual: f64,
-    /// Where it is met.
+    /// Longest step of the parameters over the shortest.
+    pub spacing_ratio: f64,
+    /// The run.
+    #[serde(flatten)]
+    pub run: RunData,
+    /// Where the largest residual is met.
     pub max_residual_index: usize,
-    /// Root mean square of the norms.
-    pub rms_residual: f64,
     /// Largest distance of a data point from its foot point.
     pub max_deviation: f64,
     /// Where it is met.
     pub max_deviation_index: usize,
-    /// Longest step of the parameters over the shortest.
-    pub spacing_ratio: f64,
-    /// Smallest eigenvalue of the collocation matrix, where it was needed.
-    pub smallest_eigenvalue: Option<f64>,
-    /// Measured times.
-    #[serde(default)]
-    pub seconds: Option<Seconds>,
-    /// Residuals step by step.
-    pub history: Vec<HistoryRow>,
 }
 
 impl ReportData {
@@ -256,36 +199,11 @@ impl ReportData {
             closed: report.closed,
             parameterization: report.parameterization.into(),
             knot_placement: report.knot_placement.into(),
-            method: report.method.into(),
-            choices: report.choices.clone(),
-            iterations: report.iterations,
-            iteration_returned: report.iteration_returned,
-            termination: report.termination.as_str().into(),
-            residual_target: report.residual_target,
-            extent: report.extent,
-            max_residual: report.max_residual,
+            spacing_ratio: report.spacing_ratio,
+            run: RunData::of(&report.run),
             max_residual_index: report.max_residual_index,
-            rms_residual: report.rms_residual,
             max_deviation: report.max_deviation,
             max_deviation_index: report.max_deviation_index,
-            spacing_ratio: report.spacing_ratio,
-            smallest_eigenvalue: report.smallest_eigenvalue,
-            seconds: None,
-            history: report.history.iter().map(HistoryRow::of).collect(),
         }
-    }
-}
-
-/// JSON has no infinities; the residuals of a run that diverged become null.
-mod number_or_null {
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    #[allow(clippy::trivially_copy_pass_by_ref)]
-    pub(super) fn serialize<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
-        value.is_finite().then_some(*value).serialize(serializer)
-    }
-
-    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-        Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
     }
 }

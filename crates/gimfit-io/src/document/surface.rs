@@ -1,6 +1,6 @@
 //! Surfaces in documents.
 
-use super::{HistoryRow, PointRows};
+use super::{HistoryRow, PointRows, RunData};
 use gimfit::{Error, KeptFit, KnotVector, PointGrid, Surface, SurfaceFit, SurfaceReport};
 use serde::{Deserialize, Serialize};
 
@@ -181,41 +181,19 @@ pub struct SurfaceReportData {
     pub parameterizations: [String; 2],
     /// How knots were placed.
     pub knot_placements: [String; 2],
-    /// The rule that ran.
-    pub method: String,
-    /// Whether it ran in one direction after the other.
+    /// Longest step of the parameters over the shortest.
+    pub spacing_ratios: [f64; 2],
+    /// Whether the rule ran in one direction after the other.
     pub per_direction: bool,
-    /// Sentences on what was chosen, and why.
-    pub choices: Vec<String>,
-    /// Steps run.
-    pub iterations: usize,
-    /// Steps behind the fit returned.
-    pub iteration_returned: usize,
-    /// `residual`, `iterations`, `stalled`, `diverged` or `cancelled`.
-    pub termination: String,
-    /// The residual aimed at.
-    pub residual_target: f64,
-    /// Diagonal of the data's bounding box.
-    pub extent: f64,
-    /// Largest norm of a difference vector.
-    pub max_residual: f64,
-    /// Row and column where it is met.
+    /// The run.
+    #[serde(flatten)]
+    pub run: RunData,
+    /// Row and column of the largest residual.
     pub max_residual_index: [usize; 2],
-    /// Root mean square of the norms.
-    pub rms_residual: f64,
     /// Largest distance of a data point from its foot point.
     pub max_deviation: f64,
     /// Row and column where it is met.
     pub max_deviation_index: [usize; 2],
-    /// Longest step of the parameters over the shortest.
-    pub spacing_ratios: [f64; 2],
-    /// Smallest eigenvalue of the collocation operator, where it was needed.
-    pub smallest_eigenvalue: Option<f64>,
-    /// Measured times.
-    #[serde(default)]
-    pub seconds: Option<super::Seconds>,
-    /// Residuals step by step.
-    pub history: Vec<HistoryRow>,
 }
 
 impl SurfaceReportData {
@@ -231,23 +209,12 @@ impl SurfaceReportData {
             closed: report.closed,
             parameterizations: report.parameterizations.map(Into::into),
             knot_placements: report.knot_placements.map(Into::into),
-            method: report.method.into(),
+            spacing_ratios: report.spacing_ratios,
             per_direction: report.per_direction,
-            choices: report.choices.clone(),
-            iterations: report.iterations,
-            iteration_returned: report.iteration_returned,
-            termination: report.termination.as_str().into(),
-            residual_target: report.residual_target,
-            extent: report.extent,
-            max_residual: report.max_residual,
+            run: RunData::of(&report.run),
             max_residual_index: report.max_residual_index,
-            rms_residual: report.rms_residual,
             max_deviation: report.max_deviation,
             max_deviation_index: report.max_deviation_index,
-            spacing_ratios: report.spacing_ratios,
-            smallest_eigenvalue: report.smallest_eigenvalue,
-            seconds: None,
-            history: report.history.iter().map(HistoryRow::of).collect(),
         }
     }
 }

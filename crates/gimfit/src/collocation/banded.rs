@@ -1,7 +1,8 @@
 //! Collocation of univariate bases: every row holds a few neighbouring weights.
 
 use super::kernel::{self, Rows};
-use super::{CollocationOperator, ResidualNorms};
+use super::{CollocationMatrix, CollocationOperator, Factorization, ResidualNorms};
+use crate::Error;
 
 /// Square collocation matrix whose row `j` has `width` weights near column `j`, wrapping round for
 /// closed curves. Memory: `8 width + 4` bytes a row.
@@ -44,17 +45,8 @@ impl BandedCollocation {
             .filter(|&(_, weight)| weight != 0.0)
     }
 
-    /// The diagonal entry of row `j`.
-    #[must_use]
-    pub fn diagonal(&self, j: usize) -> f64 {
-        self.row(j).find(|&(column, _)| column == j).map_or(0.0, |(_, weight)| weight)
-    }
-
-    /// The operator with the entries farther than `half_bandwidth` from the diagonal added to the
-    /// diagonal of their row: a diagonally compensated reduction, whose rows sum to 1 still
-    /// (Liu and Liu 2020).
-    #[must_use]
-    pub fn compensated(&self, half_bandwidth: usize) -> Self {
+    /// The diagonally compensated reduction to a half bandwidth.
+    fn compensated(&self, half_bandwidth: usize) -> Self {
         let mut reduced = self.clone();
         let limit = i32::try_from(half_bandwidth).unwrap_or(i32::MAX);
         let rows = self.first.iter().zip(reduced.weights.chunks_exact_mut(self.width));
@@ -94,5 +86,28 @@ impl CollocationOperator for BandedCollocation {
             kernel::residual(self.rows(), data, control, dimension, result);
         let max = if sum.is_finite() { largest.sqrt() } else { f64::NAN };
         ResidualNorms { max, max_index, rms: (sum / self.first.len() as f64).sqrt() }
+    }
+}
+
+impl CollocationMatrix for BandedCollocation {
+    fn visit_row(&self, j: usize, visit: &mut dyn FnMut(usize, f64)) {
+        self.row(j).for_each(|(column, weight)| visit(column, weight));
+    }
+
+    fn sweep(&self, omega: f64, vectors: &mut [f64], dimension: usize) {
+        kernel::sweep(self.rows(), omega, vectors, dimension);
+    }
+
+    fn factor(&self, half_bandwidth: Option<usize>) -> Result<Factorization, Error> {
+        match half_bandwidth {
+            Some(q) => Factorization::of_band(&self.compensated(q)),
+            None => Factorization::of_band(self),
+        }
+    }
+
+    fn is_totally_positive(&self) -> bool {
+        // Rows of B-splines at ascending parameters; a row that wraps round spoils it.
+        let columns = self.first.len();
+        self.first.iter().all(|&first| first >= 0 && first as usize + self.width <= columns)
     }
 }

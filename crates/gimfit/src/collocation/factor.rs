@@ -7,9 +7,9 @@ use super::kernel::Rows;
 use super::{BandedCollocation, CollocationOperator};
 use crate::Error;
 
-/// Factors `M = L U` of a banded collocation matrix, open or closed.
+/// Factors `M = L U` of a collocation matrix.
 #[derive(Debug, Clone)]
-pub struct BandFactors {
+pub struct Factorization {
     points: usize,
     factors: Factors,
 }
@@ -23,12 +23,9 @@ enum Factors {
     Folded(FoldedFactors),
 }
 
-impl BandFactors {
-    /// Factors the whole band.
-    ///
-    /// # Errors
-    /// [`Error::Singular`] if the matrix is singular in doubles.
-    pub fn new(operator: &BandedCollocation) -> Result<Self, Error> {
+impl Factorization {
+    /// Factors a band, open or closed.
+    pub(super) fn of_band(operator: &BandedCollocation) -> Result<Self, Error> {
         let (reach, wrapped) = reach(operator.rows());
         let points = operator.points();
         let factors = match BorderedFactors::new(operator, reach, wrapped) {

@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use super::{BandedCollocation, CollocationOperator, ResidualNorms, kernel};
+use super::{CollocationOperator, ResidualNorms};
 use crate::memory;
 
 /// `A_u (x) A_v` on m x n points: applied one direction after the other.
@@ -17,7 +17,11 @@ pub struct TensorCollocation<'a> {
 impl<'a> TensorCollocation<'a> {
     /// Joins the operators of both directions, for points of a dimension.
     #[must_use]
-    pub fn new(u: &'a BandedCollocation, v: &'a BandedCollocation, dimension: usize) -> Self {
+    pub fn new(
+        u: &'a dyn CollocationOperator,
+        v: &'a dyn CollocationOperator,
+        dimension: usize,
+    ) -> Self {
         let length = u.points() * v.points() * dimension;
         Self {
             across: AcrossCollocation::new(u, v.points()),
@@ -64,14 +68,14 @@ impl CollocationOperator for TensorCollocation<'_> {
 /// points is one point of n times the dimension to the kernels.
 #[derive(Debug, Clone, Copy)]
 pub struct AcrossCollocation<'a> {
-    operator: &'a BandedCollocation,
+    operator: &'a dyn CollocationOperator,
     columns: usize,
 }
 
 impl<'a> AcrossCollocation<'a> {
     /// Acts on grids with this many columns.
     #[must_use]
-    pub fn new(operator: &'a BandedCollocation, columns: usize) -> Self {
+    pub fn new(operator: &'a dyn CollocationOperator, columns: usize) -> Self {
         Self { operator, columns }
     }
 }
@@ -86,7 +90,7 @@ impl CollocationOperator for AcrossCollocation<'_> {
     }
 
     fn apply(&self, x: &[f64], dimension: usize, result: &mut [f64]) {
-        kernel::apply(self.operator.rows(), x, self.columns * dimension, result);
+        self.operator.apply(x, self.columns * dimension, result);
     }
 
     fn difference_vectors(
@@ -97,7 +101,7 @@ impl CollocationOperator for AcrossCollocation<'_> {
         result: &mut [f64],
     ) -> ResidualNorms {
         let wide = self.columns * dimension;
-        kernel::residual(self.operator.rows(), data, control, wide, result);
+        self.operator.difference_vectors(data, control, wide, result);
         norms_of(result, dimension)
     }
 }
@@ -105,14 +109,14 @@ impl CollocationOperator for AcrossCollocation<'_> {
 /// An operator on the columns of a grid: each row of the grid is a curve of its own.
 #[derive(Debug, Clone, Copy)]
 pub struct AlongCollocation<'a> {
-    operator: &'a BandedCollocation,
+    operator: &'a dyn CollocationOperator,
     rows: usize,
 }
 
 impl<'a> AlongCollocation<'a> {
     /// Acts on grids with this many rows.
     #[must_use]
-    pub fn new(operator: &'a BandedCollocation, rows: usize) -> Self {
+    pub fn new(operator: &'a dyn CollocationOperator, rows: usize) -> Self {
         Self { operator, rows }
     }
 }
@@ -129,7 +133,7 @@ impl CollocationOperator for AlongCollocation<'_> {
     fn apply(&self, x: &[f64], dimension: usize, result: &mut [f64]) {
         let line = self.operator.points() * dimension;
         for (x, result) in x.chunks_exact(line).zip(result.chunks_exact_mut(line)) {
-            kernel::apply(self.operator.rows(), x, dimension, result);
+            self.operator.apply(x, dimension, result);
         }
     }
 
@@ -143,7 +147,7 @@ impl CollocationOperator for AlongCollocation<'_> {
         let line = self.operator.points() * dimension;
         let lines = data.chunks_exact(line).zip(control.chunks_exact(line));
         for ((data, control), result) in lines.zip(result.chunks_exact_mut(line)) {
-            kernel::residual(self.operator.rows(), data, control, dimension, result);
+            self.operator.difference_vectors(data, control, dimension, result);
         }
         norms_of(result, dimension)
     }

@@ -14,7 +14,7 @@ mod spectrum;
 pub use banded::BandedCollocation;
 pub(crate) use build::wrap;
 pub use build::{Interpolation, interpolation};
-pub use factor::BandFactors;
+pub use factor::Factorization;
 pub use grid::{AcrossCollocation, AlongCollocation, TensorCollocation};
 pub use layout::{ControlLayout, NetLayout};
 pub use spectrum::{EigenvalueBounds, gauss_seidel_rate, smallest_eigenvalue};
@@ -39,6 +39,39 @@ pub trait CollocationOperator: std::fmt::Debug {
         dimension: usize,
         result: &mut [f64],
     ) -> ResidualNorms;
+}
+
+/// A square collocation matrix whose entries can be had: what rules beyond plain weights ask for.
+pub trait CollocationMatrix: CollocationOperator {
+    /// Calls `visit` with the column and the weight of each entry of row `j` that may not be zero.
+    fn visit_row(&self, j: usize, visit: &mut dyn FnMut(usize, f64));
+
+    /// The diagonal entry of row `j`.
+    fn diagonal(&self, j: usize) -> f64 {
+        let mut entry = 0.0;
+        self.visit_row(j, &mut |column, weight| {
+            if column == j {
+                entry += weight;
+            }
+        });
+        entry
+    }
+
+    /// Solves `(D / omega + L) y = r` in place, where D is the diagonal and L what stands left of
+    /// it, for vectors of shape (points, dimension).
+    fn sweep(&self, omega: f64, vectors: &mut [f64], dimension: usize);
+
+    /// Factors the matrix, or its diagonally compensated reduction to a half bandwidth: entries
+    /// farther from the diagonal are added to the diagonal of their row, so that rows sum to 1
+    /// still (Liu and Liu 2020).
+    ///
+    /// # Errors
+    /// [`Error::Singular`](crate::Error::Singular) if that is singular in doubles.
+    fn factor(&self, half_bandwidth: Option<usize>) -> Result<Factorization, crate::Error>;
+
+    /// Whether every minor is known to be nonnegative: then the eigenvalues lie in (0, 1] and PIA
+    /// converges (Lin, Bao and Wang 2005).
+    fn is_totally_positive(&self) -> bool;
 }
 
 /// Norms of the difference vectors.

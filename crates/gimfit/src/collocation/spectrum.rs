@@ -1,7 +1,6 @@
 //! Eigenvalues that decide how fast an iteration runs.
 
-use super::kernel;
-use super::{BandFactors, BandedCollocation, CollocationOperator};
+use super::{CollocationMatrix, Factorization};
 
 /// Where the smallest eigenvalue of a collocation matrix lies.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,7 +25,7 @@ const ENOUGH: f64 = 1e-3;
 /// eigenvalue, `1 / lambda_min`, from both sides at every step. On a closed curve the matrix is not
 /// totally positive, signs may fail to alternate, and the bounds are estimates.
 #[must_use]
-pub fn smallest_eigenvalue(factors: &BandFactors) -> EigenvalueBounds {
+pub fn smallest_eigenvalue(factors: &Factorization) -> EigenvalueBounds {
     let count = factors.size();
     let sign = |j: usize| if j.is_multiple_of(2) { 1.0 } else { -1.0 };
     let mut x = vec![1.0; count];
@@ -70,7 +69,7 @@ pub fn smallest_eigenvalue(factors: &BandFactors) -> EigenvalueBounds {
 /// Spectral radius of a Gauss-Seidel sweep, estimated by power iteration: how much of a smooth
 /// residual is left after each sweep.
 #[must_use]
-pub fn gauss_seidel_rate(operator: &BandedCollocation) -> f64 {
+pub fn gauss_seidel_rate(operator: &dyn CollocationMatrix) -> f64 {
     const STEPS: usize = 30;
     let count = operator.points();
     // Without symmetry, so that no mode is missed.
@@ -87,7 +86,7 @@ pub fn gauss_seidel_rate(operator: &BandedCollocation) -> f64 {
         error.iter_mut().for_each(|x| *x /= before);
         // One sweep for the data 0 turns the error x into x + (D + L)^-1 (0 - A x).
         operator.difference_vectors(&zero, &error, 1, &mut work);
-        kernel::sweep(operator.rows(), 1.0, &mut work, 1);
+        operator.sweep(1.0, &mut work, 1);
         error.iter_mut().zip(&work).for_each(|(x, w)| *x += w);
         rate = norm(&error);
     }

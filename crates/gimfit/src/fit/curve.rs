@@ -44,7 +44,7 @@ impl CurveFit {
 ///
 /// # Errors
 /// What is wrong with the points or the options; see [`Error`]. A run that does not reach its
-/// residual is no error: look at [`CurveReport::termination`].
+/// residual is no error: look at [`RunReport::termination`](crate::RunReport::termination).
 ///
 /// # Examples
 /// ```
@@ -109,8 +109,8 @@ pub fn fit_curve_observed<'a>(
     let mut fit = fit_problem(problem, options, observer).map_err(renumber)?;
     fit.report.parameterization = parameterization_name(&parameterization);
     fit.report.knot_placement = placement_name(&placement);
-    choices.append(&mut fit.report.choices);
-    fit.report.choices = choices;
+    choices.append(&mut fit.report.run.choices);
+    fit.report.run.choices = choices;
     fit.kept_points = cleaned.kept;
     Ok(fit)
 }
@@ -173,7 +173,6 @@ fn fit_problem(
         expand: &expand,
     };
     let solved = solve(&task, &mut chosen, observer)?;
-    let (method, smallest_eigenvalue) = (chosen.name, chosen.smallest_eigenvalue);
     drop(chosen);
     drop(operator);
 
@@ -196,21 +195,11 @@ fn fit_problem(
         closed: curve.is_periodic(),
         parameterization: "given",
         knot_placement: "given",
-        method,
-        choices: solved.choices,
-        iterations: solved.iterations,
-        iteration_returned: solved.iteration_returned,
-        termination: solved.termination,
-        residual_target: scale.undo(solved.target),
-        extent: size.extent.diagonal(),
-        max_residual: scale.undo(norms.max),
+        spacing_ratio,
+        run: solved.run,
         max_residual_index: norms.max_index,
-        rms_residual: scale.undo(norms.rms),
         max_deviation: scale.undo(max_deviation),
         max_deviation_index,
-        smallest_eigenvalue,
-        spacing_ratio,
-        history: solved.history,
     };
     Ok(CurveFit {
         curve,

@@ -2,9 +2,7 @@
 
 use super::{IterationWeight, Method};
 use crate::Error;
-use crate::collocation::{
-    BandFactors, BandedCollocation, CollocationOperator, gauss_seidel_rate, smallest_eigenvalue,
-};
+use crate::collocation::{CollocationMatrix, gauss_seidel_rate, smallest_eigenvalue};
 use crate::iteration::UpdateRule;
 use crate::iteration::update::{
     Chebyshev, GaussSeidel, Jacobi, PerPoint, Pia, Preconditioned, Sor, Staged, Weighted,
@@ -23,7 +21,7 @@ pub(super) struct ChosenRule<'a> {
 pub(super) fn choose<'a>(
     method: Method,
     weight: &IterationWeight,
-    operator: &'a BandedCollocation,
+    operator: &'a dyn CollocationMatrix,
     dimension: usize,
     gradual: usize,
 ) -> Result<ChosenRule<'a>, Error> {
@@ -31,7 +29,7 @@ pub(super) fn choose<'a>(
     let mut choices = Vec::new();
     let mut eigenvalue = None;
     let mut smallest = || -> Result<f64, Error> {
-        let bounds = smallest_eigenvalue(&BandFactors::new(operator)?);
+        let bounds = smallest_eigenvalue(&operator.factor(None)?);
         // Where the enclosure did not close, the estimate is not worth telling.
         eigenvalue = (bounds.estimate <= 1.5 * bounds.lower).then_some(bounds.estimate);
         // The lower bound is safe; far off the estimate it would only be slow.

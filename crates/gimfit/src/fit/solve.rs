@@ -6,10 +6,9 @@ use super::keep::Keeper;
 use super::method::ChosenRule;
 use crate::Error;
 use crate::collocation::{CollocationOperator, ResidualNorms};
-use crate::iteration::{
-    HistoryEntry, IterationState, Observer, Outcome, ROUNDING, Stopping, Termination, run,
-};
+use crate::iteration::{IterationState, Observer, Outcome, ROUNDING, Stopping, Termination, run};
 use crate::points::{Extent, Points, PowerOfTwoScale};
+use crate::report::RunReport;
 
 /// Share of the extent that a residual may keep by default.
 const DEFAULT_RESIDUAL: f64 = 1e-12;
@@ -77,19 +76,13 @@ impl Size {
     }
 }
 
-/// A run that has ended. Control points and difference vectors are scaled still; the rest is in the
-/// unit of the data.
+/// A run that has ended. Control points, difference vectors and norms are scaled still; the rest is
+/// in the unit of the data.
 pub(super) struct Solved {
     pub(super) control: Vec<f64>,
     pub(super) vectors: Vec<f64>,
     pub(super) norms: ResidualNorms,
-    pub(super) termination: Termination,
-    /// The residual aimed at, or the level of rounding that was accepted for it; scaled.
-    pub(super) target: f64,
-    pub(super) iterations: usize,
-    pub(super) iteration_returned: usize,
-    pub(super) history: Vec<HistoryEntry>,
-    pub(super) choices: Vec<String>,
+    pub(super) run: RunReport,
     pub(super) sequence: Vec<KeptFit>,
 }
 
@@ -149,18 +142,20 @@ pub(super) fn solve(
     }
     let iteration_returned = state.iteration();
     let (control, vectors) = state.into_parts();
-    Ok(Solved {
-        control,
-        vectors,
-        norms,
-        termination,
-        target,
+    let run = RunReport {
+        method: chosen.name,
+        choices,
         iterations,
         iteration_returned,
+        termination,
+        residual_target: scale.undo(target),
+        extent: size.extent.diagonal(),
+        max_residual: scale.undo(norms.max),
+        rms_residual: scale.undo(norms.rms),
+        smallest_eigenvalue: chosen.smallest_eigenvalue,
         history,
-        choices,
-        sequence,
-    })
+    };
+    Ok(Solved { control, vectors, norms, run, sequence })
 }
 
 /// Brings points back into the unit of the data.

@@ -1,7 +1,6 @@
 //! Interpolation of a grid of points by a tensor-product B-spline surface.
 
 use super::curve::{finish_parameters, parameterization_name, placement_name};
-use super::method::ChosenRule;
 use super::solve::{Size, Solved, Task, norm, solve, unscaled};
 use super::surface_method::{Directions, choose_across, choose_along, choose_both};
 use super::{IterationWeight, KeptFit, SurfaceOptions};
@@ -16,7 +15,7 @@ use crate::knots::{KnotPlacement, KnotVector, place_knots};
 use crate::parameters::{Parameterization, Parameters, assign_grid_parameters};
 use crate::points::{Extent, GridView, PointGrid, Points};
 use crate::projection::largest_surface_deviation;
-use crate::report::SurfaceReport;
+use crate::report::{RunReport, SurfaceReport};
 
 /// A fitted surface and the account of how it came about.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,7 +44,7 @@ impl SurfaceFit {
 ///
 /// # Errors
 /// What is wrong with the points or the options; see [`Error`]. A run that does not reach its
-/// residual is no error: look at [`SurfaceReport::termination`].
+/// residual is no error: look at [`RunReport::termination`](crate::RunReport::termination).
 ///
 /// # Examples
 /// ```
@@ -95,12 +94,13 @@ pub fn fit_surface_observed(
     let expand = |control| layout.expand(control, dimension);
     let stopping = size.stopping(options.residual, options.iterations, &mut choices)?;
     let setting = Setting { view, size: &size, directions, options, stopping, expand: &expand };
-    let (mut solved, method, smallest_eigenvalue) = if options.per_direction {
+    let mut solved = if options.per_direction {
         per_direction(&setting, observer)?
     } else {
         at_once(&setting, observer)?
     };
-    choices.append(&mut solved.choices);
+    choices.append(&mut solved.run.choices);
+    solved.run.choices = choices;
 
     let finish = |direction: &Direction, parameters: Parameters| {
         finish_parameters(parameters, &direction.knots, direction.built.layout)
@@ -132,22 +132,12 @@ pub fn fit_surface_observed(
         closed: options.closed,
         parameterizations: [u.parameterization, v.parameterization],
         knot_placements: [u.knot_placement, v.knot_placement],
-        method,
+        spacing_ratios: [ratio_u, ratio_v],
         per_direction: options.per_direction,
-        choices,
-        iterations: solved.iterations,
-        iteration_returned: solved.iteration_returned,
-        termination: solved.termination,
-        residual_target: scale.undo(solved.target),
-        extent: size.extent.diagonal(),
-        max_residual: scale.undo(norms.max),
+        run: solved.run,
         max_residual_index: cell(norms.max_index),
-        rms_residual: scale.undo(norms.rms),
         max_deviation: scale.undo(max_deviation),
         max_deviation_index: cell(deviation_index),
-        smallest_eigenvalue,
-        spacing_ratios: [ratio_u, ratio_v],
-        history: solved.history,
     };
     Ok(SurfaceFit {
         surface,
@@ -278,10 +268,8 @@ impl<'a> Setting<'a> {
     }
 }
 
-type Ended = (Solved, &'static str, Option<f64>);
-
 /// Moves the whole net in every step: the iterates of the 2004 paper, for PIA.
-fn at_once(setting: &Setting<'_>, observer: &mut dyn Observer) -> Result<Ended, Error> {
+fn at_once(setting: &Setting<'_>, observer: &mut dyn Observer) -> Result<Solved, Error> {
     let (options, directions) = (setting.options, setting.directions);
     let dimension = setting.view.dimension();
     let gradual = options.keep.iter().copied().max().unwrap_or(0).min(options.iterations);
@@ -289,13 +277,12 @@ fn at_once(setting: &Setting<'_>, observer: &mut dyn Observer) -> Result<Ended, 
     let operator = TensorCollocation::new(directions.u, directions.v, dimension);
     let data = setting.view.points().coordinates();
     let task = Task { keep: &options.keep, ..setting.task(&operator, data) };
-    let solved = solve(&task, &mut chosen, observer)?;
-    Ok((solved, chosen.name, chosen.smallest_eigenvalue))
+    solve(&task, &mut chosen, observer)
 }
 
 /// Runs the columns to their limit, then the rows: the same limit in far fewer steps, since no step
 /// has to serve both directions.
-fn per_direction(setting: &Setting<'_>, observer: &mut dyn Observer) -> Result<Ended, Error> {
+fn per_direction(setting: &Setting<'_>, observer: &mut dyn Observer) -> Result<Solved, Error> {
     let (options, directions) = (setting.options, setting.directions);
     if !options.keep.is_empty() {
         return Err(Error::Incompatible {
@@ -331,8 +318,10 @@ fn per_direction(setting: &Setting<'_>, observer: &mut dyn Observer) -> Result<E
     let second = solve(&task, &mut in_v, observer)?;
 
     let norms = both.difference_vectors(data, &second.control, dimension, &mut work);
-    let iterations = first.iterations + second.iterations;
-    let termination = overall([first.termination, second.termination], norms.max, setting.stopping);
+    let (first, second_run) = (first.run, second.run);
+    let iterations = first.iterations + second_run.iterations;
+    let endings = [first.termination, second_run.termination];
+    let termination = overall(endings, norms.max, setting.stopping);
     let undo = |x: f64| setting.size.scale.undo(x);
     let entry = |iteration, norms: crate::collocation::ResidualNorms| HistoryEntry {
         iteration,
@@ -341,33 +330,34 @@ fn per_direction(setting: &Setting<'_>, observer: &mut dyn Observer) -> Result<E
     };
     let mut choices = vec![format!(
         "directions: one after the other, {} steps in u, {} in v",
-        first.iterations, second.iterations
+        first.iterations, second_run.iterations
     )];
     let named = |name: &'static str, list: Vec<String>| {
         list.into_iter().map(move |choice| format!("{choice} (in {name})"))
     };
     choices.extend(named("u", first.choices));
-    choices.extend(named("v", second.choices));
-    let ChosenRule { name, smallest_eigenvalue, .. } = in_u;
-    let product = smallest_eigenvalue.zip(in_v.smallest_eigenvalue).map(|(u, v)| u * v);
-    let solved = Solved {
-        control: second.control,
-        vectors: work,
-        norms,
-        termination,
-        target: setting.stopping.residual.max(if termination == Termination::Residual {
-            // What was accepted in each direction adds up.
-            first.target + second.target
-        } else {
-            0.0
-        }),
-        iterations,
-        iteration_returned: first.iteration_returned + second.iteration_returned,
-        history: vec![entry(0, before), entry(iterations, norms)],
+    choices.extend(named("v", second_run.choices));
+    let eigenvalues = first.smallest_eigenvalue.zip(second_run.smallest_eigenvalue);
+    let run = RunReport {
         choices,
-        sequence: Vec::new(),
+        iterations,
+        iteration_returned: first.iteration_returned + second_run.iteration_returned,
+        termination,
+        residual_target: undo(setting.stopping.residual).max(
+            if termination == Termination::Residual {
+                // What was accepted in each direction adds up.
+                first.residual_target + second_run.residual_target
+            } else {
+                0.0
+            },
+        ),
+        max_residual: undo(norms.max),
+        rms_residual: undo(norms.rms),
+        smallest_eigenvalue: eigenvalues.map(|(u, v)| u * v),
+        history: vec![entry(0, before), entry(iterations, norms)],
+        ..second_run
     };
-    Ok((solved, name, product))
+    Ok(Solved { control: second.control, vectors: work, norms, run, sequence: Vec::new() })
 }
 
 /// How two runs ended, seen as one.

@@ -3,9 +3,7 @@
 use super::method::{ChosenRule, check_weight, choose, weighted};
 use super::{IterationWeight, Method};
 use crate::Error;
-use crate::collocation::{
-    BandFactors, BandedCollocation, CollocationOperator, smallest_eigenvalue,
-};
+use crate::collocation::{CollocationMatrix, smallest_eigenvalue};
 use crate::iteration::UpdateRule;
 use crate::iteration::update::{
     Across, Along, Both, Chebyshev, GaussSeidel, Jacobi, Pia, Preconditioned, Staged,
@@ -14,8 +12,8 @@ use crate::iteration::update::{
 /// The operators of both directions.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Directions<'a> {
-    pub(super) u: &'a BandedCollocation,
-    pub(super) v: &'a BandedCollocation,
+    pub(super) u: &'a dyn CollocationMatrix,
+    pub(super) v: &'a dyn CollocationMatrix,
 }
 
 impl Directions<'_> {
@@ -38,7 +36,7 @@ pub(super) fn choose_both<'a>(
     let mut choices = Vec::new();
     let mut eigenvalue = None;
     let mut smallest = || -> Result<f64, Error> {
-        let bounds = [u, v].map(|a| BandFactors::new(a).map(|f| smallest_eigenvalue(&f)));
+        let bounds = [u, v].map(|a| a.factor(None).map(|f| smallest_eigenvalue(&f)));
         let [u, v] = bounds;
         let (u, v) = (u?, v?);
         let tight = u.estimate <= 1.5 * u.lower && v.estimate <= 1.5 * v.lower;

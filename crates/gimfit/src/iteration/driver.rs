@@ -40,6 +40,9 @@ pub fn run(
         if flow == Flow::Stop {
             break Termination::Cancelled;
         }
+        if rule.is_stuck() {
+            break Termination::Stalled;
+        }
         state.step(rule);
     };
     let iterations = state.iteration();

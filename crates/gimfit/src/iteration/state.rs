@@ -1,6 +1,6 @@
 //! What an iteration carries from step to step; a caller may drive it by hand.
 
-use super::UpdateRule;
+use super::{Step, UpdateRule};
 use crate::collocation::{CollocationOperator, ResidualNorms};
 use crate::memory;
 
@@ -50,7 +50,9 @@ impl<'a> IterationState<'a> {
     /// One step: adjusting vectors from the rule, added to the control points; then the new
     /// difference vectors. Allocates nothing.
     pub fn step(&mut self, rule: &mut dyn UpdateRule) {
-        rule.adjust(self.iteration, &mut self.vectors, self.dimension);
+        let control = if self.control.is_empty() { self.data } else { &self.control };
+        let step = Step { iteration: self.iteration, control, dimension: self.dimension };
+        rule.adjust(step, &mut self.vectors);
         if self.control.is_empty() {
             self.control.extend(self.data.iter().zip(&self.vectors).map(|(q, delta)| q + delta));
         } else {

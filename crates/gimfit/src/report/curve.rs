@@ -1,8 +1,9 @@
 //! The account of a curve fit.
 
-use crate::iteration::{HistoryEntry, Termination};
+use super::RunReport;
 
-/// The account of a curve fit. Lengths are in the unit of the data.
+/// The account of a curve fit. Lengths are in the unit of the data; indices count the points
+/// fitted.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurveReport {
     /// Data points fitted, after duplicates and a repeated closing point were taken out.
@@ -19,43 +20,22 @@ pub struct CurveReport {
     pub parameterization: &'static str,
     /// How knots were placed.
     pub knot_placement: &'static str,
-    /// The rule that ran.
-    pub method: &'static str,
-    /// What was chosen for the caller, and why.
-    pub choices: Vec<String>,
-    /// Steps run.
-    pub iterations: usize,
-    /// Steps behind the fit returned; fewer than `iterations` where a later step was worse.
-    pub iteration_returned: usize,
-    /// Why the run ended.
-    pub termination: Termination,
-    /// The residual it aimed at; where that lay below rounding and none was demanded, the level of
-    /// rounding that was accepted.
-    pub residual_target: f64,
-    /// Diagonal of the bounding box of the data.
-    pub extent: f64,
-    /// Largest norm of a difference vector.
-    pub max_residual: f64,
-    /// The point where it is met, counted among the points fitted.
+    /// Longest step of the parameters over the shortest.
+    pub spacing_ratio: f64,
+    /// The run.
+    pub run: RunReport,
+    /// The point with the largest residual.
     pub max_residual_index: usize,
-    /// Root mean square of the norms.
-    pub rms_residual: f64,
     /// Largest distance of a data point from its foot point on the curve.
     pub max_deviation: f64,
-    /// The point where it is met, counted among the points fitted.
+    /// The point where it is met.
     pub max_deviation_index: usize,
-    /// Smallest eigenvalue of the collocation matrix, where the method asked for it.
-    pub smallest_eigenvalue: Option<f64>,
-    /// Longest chord over the shortest.
-    pub spacing_ratio: f64,
-    /// Residuals step by step.
-    pub history: Vec<HistoryEntry>,
 }
 
 impl CurveReport {
     /// Whether the run reached what was asked of it.
     #[must_use]
     pub fn converged(&self) -> bool {
-        self.termination == Termination::Residual
+        self.run.converged()
     }
 }

@@ -4,7 +4,7 @@
 
 use super::super::measure::{closed_uniform, decay_of_inverse};
 use super::super::table::{Entry, Part, Source};
-use gimfit::collocation::{BandFactors, BandedCollocation, smallest_eigenvalue};
+use gimfit::collocation::{BandedCollocation, CollocationMatrix, smallest_eigenvalue};
 use gimfit::iteration::update::Weighted;
 
 /// Even, so that the largest frequency is met; many times the reach of a data point.
@@ -111,7 +111,7 @@ fn rate_entries(
     entries: &mut Vec<Entry>,
 ) -> anyhow::Result<()> {
     let (a, b) = theory.smallest;
-    let found = smallest_eigenvalue(&BandFactors::new(operator)?).estimate;
+    let found = smallest_eigenvalue(&operator.factor(None)?).estimate;
     let mut compare = |what: &str, reference: (String, f64), relative: f64, value: f64| {
         let label = format!("p={} {what}", theory.degree);
         entries.push(Entry::known(label, reference, relative, value));

@@ -1,7 +1,7 @@
 //! Chebyshev semi-iterative PIA (Liu, Han and Li 2017), by the three-term recurrence: products of
 //! Chebyshev roots taken one by one blow up in doubles, the recurrence does not.
 
-use super::UpdateRule;
+use super::{Step, UpdateRule};
 use crate::memory;
 
 /// PIA with the residual polynomial that is smallest on an interval of eigenvalues.
@@ -29,9 +29,9 @@ impl Chebyshev {
 }
 
 impl UpdateRule for Chebyshev {
-    fn adjust(&mut self, iteration: usize, vectors: &mut [f64], _: usize) {
+    fn adjust(&mut self, step: Step<'_>, vectors: &mut [f64]) {
         let sigma = self.centre / self.radius;
-        if iteration == 0 || self.radius <= 0.0 {
+        if step.iteration == 0 || self.radius <= 0.0 {
             self.rho = sigma.recip();
             for (r, d) in vectors.iter_mut().zip(&mut self.previous) {
                 *r /= self.centre;

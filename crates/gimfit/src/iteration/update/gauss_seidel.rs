@@ -4,8 +4,8 @@
 //! Told in difference vectors, a sweep from `P` adds the solution of `(D / omega + L) delta = R`,
 //! where D is the diagonal of the collocation matrix and L what stands left of it.
 
-use super::UpdateRule;
-use crate::collocation::{BandedCollocation, kernel};
+use super::{Step, UpdateRule};
+use crate::collocation::CollocationMatrix;
 
 /// Progressive-iterative approximation by Gauss-Seidel sweeps.
 #[derive(Debug, Clone, Copy)]
@@ -16,28 +16,28 @@ pub struct GaussSeidel<'a> {
 impl<'a> GaussSeidel<'a> {
     /// Sweeps over the rows of an operator.
     #[must_use]
-    pub fn new(operator: &'a BandedCollocation) -> Self {
+    pub fn new(operator: &'a dyn CollocationMatrix) -> Self {
         Self { sweep: Sor::new(operator, 1.0) }
     }
 }
 
 impl UpdateRule for GaussSeidel<'_> {
-    fn adjust(&mut self, iteration: usize, vectors: &mut [f64], dimension: usize) {
-        self.sweep.adjust(iteration, vectors, dimension);
+    fn adjust(&mut self, step: Step<'_>, vectors: &mut [f64]) {
+        self.sweep.adjust(step, vectors);
     }
 }
 
 /// Successive over-relaxation of the Gauss-Seidel sweep.
 #[derive(Debug, Clone, Copy)]
 pub struct Sor<'a> {
-    operator: &'a BandedCollocation,
+    operator: &'a dyn CollocationMatrix,
     omega: f64,
 }
 
 impl<'a> Sor<'a> {
     /// Sweeps with relaxation factor `omega` in (0, 2).
     #[must_use]
-    pub fn new(operator: &'a BandedCollocation, omega: f64) -> Self {
+    pub fn new(operator: &'a dyn CollocationMatrix, omega: f64) -> Self {
         Self { operator, omega }
     }
 
@@ -50,7 +50,7 @@ impl<'a> Sor<'a> {
 }
 
 impl UpdateRule for Sor<'_> {
-    fn adjust(&mut self, _: usize, vectors: &mut [f64], dimension: usize) {
-        kernel::sweep(self.operator.rows(), self.omega, vectors, dimension);
+    fn adjust(&mut self, step: Step<'_>, vectors: &mut [f64]) {
+        self.operator.sweep(self.omega, vectors, step.dimension);
     }
 }

@@ -4,7 +4,7 @@
 //! rules, never formed. Its eigenvalues are products, so what converges in each direction with
 //! eigenvalues in (0, 1] converges in both (Lin, Wang and Dong 2004, section 2.2, for PIA).
 
-use super::UpdateRule;
+use super::{Step, UpdateRule};
 
 /// A rule that takes each column of a grid for a curve: the rows are its points, of `columns` times
 /// the dimension.
@@ -23,8 +23,13 @@ impl<R: UpdateRule> Across<R> {
 }
 
 impl<R: UpdateRule> UpdateRule for Across<R> {
-    fn adjust(&mut self, iteration: usize, vectors: &mut [f64], dimension: usize) {
-        self.rule.adjust(iteration, vectors, self.columns * dimension);
+    fn adjust(&mut self, step: Step<'_>, vectors: &mut [f64]) {
+        let wide = Step { dimension: self.columns * step.dimension, ..step };
+        self.rule.adjust(wide, vectors);
+    }
+
+    fn is_stuck(&self) -> bool {
+        self.rule.is_stuck()
     }
 
     fn reset(&mut self) {
@@ -49,10 +54,16 @@ impl<R: UpdateRule> Along<R> {
 }
 
 impl<R: UpdateRule> UpdateRule for Along<R> {
-    fn adjust(&mut self, iteration: usize, vectors: &mut [f64], dimension: usize) {
-        for line in vectors.chunks_exact_mut(self.columns * dimension) {
-            self.rule.adjust(iteration, line, dimension);
+    fn adjust(&mut self, step: Step<'_>, vectors: &mut [f64]) {
+        let length = self.columns * step.dimension;
+        let lines = vectors.chunks_exact_mut(length).zip(step.control.chunks_exact(length));
+        for (line, control) in lines {
+            self.rule.adjust(Step { control, ..step }, line);
         }
+    }
+
+    fn is_stuck(&self) -> bool {
+        self.rule.is_stuck()
     }
 
     fn reset(&mut self) {
@@ -76,9 +87,13 @@ impl<U: UpdateRule, V: UpdateRule> Both<U, V> {
 }
 
 impl<U: UpdateRule, V: UpdateRule> UpdateRule for Both<U, V> {
-    fn adjust(&mut self, iteration: usize, vectors: &mut [f64], dimension: usize) {
-        self.across.adjust(iteration, vectors, dimension);
-        self.along.adjust(iteration, vectors, dimension);
+    fn adjust(&mut self, step: Step<'_>, vectors: &mut [f64]) {
+        self.across.adjust(step, vectors);
+        self.along.adjust(step, vectors);
+    }
+
+    fn is_stuck(&self) -> bool {
+        self.across.is_stuck() || self.along.is_stuck()
     }
 
     fn reset(&mut self) {

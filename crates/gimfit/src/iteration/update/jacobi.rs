@@ -2,9 +2,8 @@
 //! (Liu and Deng 2015). Safe only where the diagonal dominates; it diverges on Bernstein bases and
 //! on strongly graded data.
 
-use super::UpdateRule;
-use crate::collocation::BandedCollocation;
-use crate::collocation::CollocationOperator;
+use super::{Step, UpdateRule};
+use crate::collocation::CollocationMatrix;
 
 /// Progressive-iterative approximation with the diagonal as weight.
 #[derive(Debug, Clone)]
@@ -15,15 +14,15 @@ pub struct Jacobi {
 impl Jacobi {
     /// Reads the diagonal of an operator.
     #[must_use]
-    pub fn new(operator: &BandedCollocation) -> Self {
+    pub fn new(operator: &dyn CollocationMatrix) -> Self {
         let reciprocal = (0..operator.points()).map(|j| operator.diagonal(j).recip()).collect();
         Self { reciprocal }
     }
 }
 
 impl UpdateRule for Jacobi {
-    fn adjust(&mut self, _: usize, vectors: &mut [f64], dimension: usize) {
-        for (vector, factor) in vectors.chunks_exact_mut(dimension).zip(&self.reciprocal) {
+    fn adjust(&mut self, step: Step<'_>, vectors: &mut [f64]) {
+        for (vector, factor) in vectors.chunks_exact_mut(step.dimension).zip(&self.reciprocal) {
             vector.iter_mut().for_each(|x| *x *= factor);
         }
     }

@@ -4,12 +4,12 @@
 //! every nonsingular collocation matrix of a normalised totally positive basis, at the rate
 //! `1 - lambda_min`.
 
-use super::UpdateRule;
+use super::{Step, UpdateRule};
 
 /// Progressive-iterative approximation.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Pia;
 
 impl UpdateRule for Pia {
-    fn adjust(&mut self, _: usize, _: &mut [f64], _: usize) {}
+    fn adjust(&mut self, _: Step<'_>, _: &mut [f64]) {}
 }

@@ -5,14 +5,14 @@
 //! a forward and a backward sweep over the control points, the first reaches the interpolant to
 //! rounding whatever the spacing of the data, and further ones refine it.
 
-use super::UpdateRule;
+use super::{Step, UpdateRule};
 use crate::Error;
-use crate::collocation::{BandFactors, BandedCollocation};
+use crate::collocation::{CollocationMatrix, Factorization};
 
 /// Progressive-iterative approximation preconditioned by a band.
 #[derive(Debug, Clone)]
 pub struct Preconditioned {
-    factors: BandFactors,
+    factors: Factorization,
 }
 
 impl Preconditioned {
@@ -20,17 +20,16 @@ impl Preconditioned {
     ///
     /// # Errors
     /// [`Error::Singular`].
-    pub fn new(operator: &BandedCollocation, half_bandwidth: Option<usize>) -> Result<Self, Error> {
-        let factors = match half_bandwidth {
-            Some(q) => BandFactors::new(&operator.compensated(q))?,
-            None => BandFactors::new(operator)?,
-        };
-        Ok(Self { factors })
+    pub fn new(
+        operator: &dyn CollocationMatrix,
+        half_bandwidth: Option<usize>,
+    ) -> Result<Self, Error> {
+        Ok(Self { factors: operator.factor(half_bandwidth)? })
     }
 }
 
 impl UpdateRule for Preconditioned {
-    fn adjust(&mut self, _: usize, vectors: &mut [f64], dimension: usize) {
-        self.factors.solve_in_place(vectors, dimension);
+    fn adjust(&mut self, step: Step<'_>, vectors: &mut [f64]) {
+        self.factors.solve_in_place(vectors, step.dimension);
     }
 }

@@ -1,6 +1,6 @@
 //! One rule for the first steps, another for the rest: a gradual family of fits, then the limit.
 
-use super::UpdateRule;
+use super::{Step, UpdateRule};
 
 /// Runs `first` for a number of steps, then `then`.
 #[derive(Debug)]
@@ -19,11 +19,15 @@ impl<A: UpdateRule, B: UpdateRule> Staged<A, B> {
 }
 
 impl<A: UpdateRule, B: UpdateRule> UpdateRule for Staged<A, B> {
-    fn adjust(&mut self, iteration: usize, vectors: &mut [f64], dimension: usize) {
-        match iteration.checked_sub(self.switch) {
-            None => self.first.adjust(iteration, vectors, dimension),
-            Some(later) => self.then.adjust(later, vectors, dimension),
+    fn adjust(&mut self, step: Step<'_>, vectors: &mut [f64]) {
+        match step.iteration.checked_sub(self.switch) {
+            None => self.first.adjust(step, vectors),
+            Some(iteration) => self.then.adjust(Step { iteration, ..step }, vectors),
         }
+    }
+
+    fn is_stuck(&self) -> bool {
+        self.then.is_stuck()
     }
 
     fn reset(&mut self) {

@@ -5,7 +5,7 @@
 //! positive bases: the rows scaled by them stay totally positive, and no eigenvalue exceeds the
 //! largest weight.
 
-use super::UpdateRule;
+use super::{Step, UpdateRule};
 
 /// One weight for all points.
 #[derive(Debug, Clone, Copy)]
@@ -28,7 +28,7 @@ impl Weighted {
 }
 
 impl UpdateRule for Weighted {
-    fn adjust(&mut self, _: usize, vectors: &mut [f64], _: usize) {
+    fn adjust(&mut self, _: Step<'_>, vectors: &mut [f64]) {
         vectors.iter_mut().for_each(|x| *x *= self.omega);
     }
 }
@@ -48,8 +48,8 @@ impl PerPoint {
 }
 
 impl UpdateRule for PerPoint {
-    fn adjust(&mut self, _: usize, vectors: &mut [f64], dimension: usize) {
-        for (vector, omega) in vectors.chunks_exact_mut(dimension).zip(&self.omega) {
+    fn adjust(&mut self, step: Step<'_>, vectors: &mut [f64]) {
+        for (vector, omega) in vectors.chunks_exact_mut(step.dimension).zip(&self.omega) {
             vector.iter_mut().for_each(|x| *x *= omega);
         }
     }

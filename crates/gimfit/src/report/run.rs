@@ -1,0 +1,39 @@
+//! The account of a run, whatever geometry it moved.
+
+use crate::iteration::{HistoryEntry, Termination};
+
+/// The account of a run. Lengths are in the unit of the data.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunReport {
+    /// The rule that ran.
+    pub method: &'static str,
+    /// What was chosen for the caller, and why.
+    pub choices: Vec<String>,
+    /// Steps run.
+    pub iterations: usize,
+    /// Steps behind the fit returned; fewer than `iterations` where a later step was worse.
+    pub iteration_returned: usize,
+    /// Why the run ended.
+    pub termination: Termination,
+    /// The residual it aimed at; where that lay below rounding and none was demanded, the level of
+    /// rounding that was accepted.
+    pub residual_target: f64,
+    /// Diagonal of the bounding box of the data.
+    pub extent: f64,
+    /// Largest norm of a difference vector.
+    pub max_residual: f64,
+    /// Root mean square of the norms.
+    pub rms_residual: f64,
+    /// Smallest eigenvalue of the collocation operator, where the method asked for it.
+    pub smallest_eigenvalue: Option<f64>,
+    /// Residuals step by step.
+    pub history: Vec<HistoryEntry>,
+}
+
+impl RunReport {
+    /// Whether the run reached what was asked of it.
+    #[must_use]
+    pub fn converged(&self) -> bool {
+        self.termination == Termination::Residual
+    }
+}
