@@ -171,6 +171,29 @@ pub enum Error {
         "the fit leaves the range of doubles: parameters lie too close together, or coordinates too far apart, for this degree; use uniform or centripetal parameters, or scale the data"
     )]
     LeavesDoubles,
+    /// A basis that does not blend: a function that is negative or no number, or functions that do
+    /// not add up to one.
+    #[error(
+        "the functions of the basis {basis} do not blend at parameter {parameter:?}: {problem}; they must be nonnegative and add up to 1"
+    )]
+    NoBlending {
+        /// Name of the basis.
+        basis: String,
+        /// The parameter where it shows.
+        parameter: f64,
+        /// What is wrong there.
+        problem: String,
+    },
+    /// A dense collocation matrix that is singular in doubles.
+    #[error(
+        "no control points of the basis {basis} make it pass through the {points} points: their collocation matrix is singular in doubles"
+    )]
+    SingularBasis {
+        /// Name of the basis.
+        basis: String,
+        /// Number of points.
+        points: usize,
+    },
     /// Choices that exclude each other.
     #[error("{what} cannot be used with {with}: {why}")]
     Incompatible {

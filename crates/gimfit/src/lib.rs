@@ -20,7 +20,7 @@
 //! * [`points`]: what we are given
 //! * [`parameters`]: where each data point sits on the curve
 //! * [`knots`]: knot vectors and their placement
-//! * `basis`: blending functions (not public yet)
+//! * [`basis`]: blending functions
 //! * [`geometry`]: curves: evaluate, derive
 //! * [`collocation`]: rows of few weights, built once and applied many times; their spectrum
 //! * [`projection`]: foot points
@@ -38,7 +38,7 @@ pub mod parameters;
 
 pub mod knots;
 
-mod basis;
+pub mod basis;
 
 pub mod geometry;
 

@@ -1,5 +1,16 @@
-//! Blending functions: the B-spline basis and its derivatives.
+//! Blending functions: B-splines and their derivatives, and every other basis behind one trait.
 
+mod ball;
+mod bernstein;
+mod blending;
+mod dp;
 mod kernel;
+mod powers;
+mod rational;
 
+pub use ball::{SaidBall, WangBall};
+pub use bernstein::Bernstein;
+pub use blending::{BlendingBasis, MAX_BLENDING_DEGREE};
+pub use dp::Dp;
 pub(crate) use kernel::{basis_derivatives, basis_functions};
+pub use rational::Rational;

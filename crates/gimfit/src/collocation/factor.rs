@@ -2,6 +2,7 @@
 //! smallest eigenvalue.
 
 use super::bordered::BorderedFactors;
+use super::dense_factor::DenseFactors;
 use super::folded::FoldedFactors;
 use super::kernel::Rows;
 use super::{BandedCollocation, CollocationOperator};
@@ -21,6 +22,8 @@ enum Factors {
     /// Safe: partial pivoting, for closed curves whose matrix without its wrapped part is badly
     /// conditioned though the whole is not.
     Folded(FoldedFactors),
+    /// Of a matrix without a band.
+    Dense(DenseFactors),
 }
 
 impl Factorization {
@@ -37,6 +40,16 @@ impl Factorization {
         Ok(Self { points, factors })
     }
 
+    /// Factors a dense matrix, row by row; `None` if it is singular.
+    pub(super) fn of_dense(points: usize, matrix: Vec<f64>) -> Option<Self> {
+        Some(Self { points, factors: Factors::Dense(DenseFactors::new(points, matrix)?) })
+    }
+
+    /// Whether they are those of a matrix without a band.
+    pub(super) fn is_dense(&self) -> bool {
+        matches!(self.factors, Factors::Dense(_))
+    }
+
     /// Number of unknowns.
     #[must_use]
     pub fn size(&self) -> usize {
@@ -48,6 +61,7 @@ impl Factorization {
         match &self.factors {
             Factors::Bordered(factors) => factors.solve_in_place(vectors, dimension),
             Factors::Folded(factors) => factors.solve_in_place(vectors, dimension),
+            Factors::Dense(factors) => factors.solve_in_place(vectors, dimension),
         }
     }
 }

@@ -4,6 +4,8 @@ mod band_kernel;
 mod banded;
 mod bordered;
 mod build;
+mod dense;
+mod dense_factor;
 mod factor;
 mod folded;
 mod grid;
@@ -14,10 +16,13 @@ mod spectrum;
 pub use banded::BandedCollocation;
 pub(crate) use build::wrap;
 pub use build::{Interpolation, interpolation};
+pub use dense::{DenseCollocation, MAX_DENSE_POINTS};
 pub use factor::Factorization;
 pub use grid::{AcrossCollocation, AlongCollocation, TensorCollocation};
 pub use layout::{ControlLayout, NetLayout};
-pub use spectrum::{EigenvalueBounds, gauss_seidel_rate, smallest_eigenvalue};
+pub use spectrum::{
+    EigenvalueBounds, gauss_seidel_rate, smallest_eigenvalue, smallest_eigenvalue_of,
+};
 
 /// What an iteration needs of `A = [B_i(t_j)]`, whatever the geometry behind it. Vectors are flat
 /// arrays of shape (points, dimension) and (control points, dimension), row-major.
@@ -72,6 +77,11 @@ pub trait CollocationMatrix: CollocationOperator {
     /// Whether every minor is known to be nonnegative: then the eigenvalues lie in (0, 1] and PIA
     /// converges (Lin, Bao and Wang 2005).
     fn is_totally_positive(&self) -> bool;
+
+    /// The smallest eigenvalue, where a law gives it in closed form.
+    fn known_smallest_eigenvalue(&self) -> Option<f64> {
+        None
+    }
 }
 
 /// Norms of the difference vectors.

@@ -2,7 +2,7 @@
 
 use super::{IterationWeight, Method};
 use crate::Error;
-use crate::collocation::{CollocationMatrix, gauss_seidel_rate, smallest_eigenvalue};
+use crate::collocation::{CollocationMatrix, gauss_seidel_rate, smallest_eigenvalue_of};
 use crate::iteration::UpdateRule;
 use crate::iteration::update::{
     Chebyshev, GaussSeidel, Jacobi, PerPoint, Pia, Preconditioned, Sor, Staged, Weighted,
@@ -29,7 +29,7 @@ pub(super) fn choose<'a>(
     let mut choices = Vec::new();
     let mut eigenvalue = None;
     let mut smallest = || -> Result<f64, Error> {
-        let bounds = smallest_eigenvalue(&operator.factor(None)?);
+        let bounds = smallest_eigenvalue_of(operator)?;
         // Where the enclosure did not close, the estimate is not worth telling.
         eigenvalue = (bounds.estimate <= 1.5 * bounds.lower).then_some(bounds.estimate);
         // The lower bound is safe; far off the estimate it would only be slow.

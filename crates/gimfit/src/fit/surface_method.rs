@@ -3,7 +3,7 @@
 use super::method::{ChosenRule, check_weight, choose, weighted};
 use super::{IterationWeight, Method};
 use crate::Error;
-use crate::collocation::{CollocationMatrix, smallest_eigenvalue};
+use crate::collocation::{CollocationMatrix, smallest_eigenvalue_of};
 use crate::iteration::UpdateRule;
 use crate::iteration::update::{
     Across, Along, Both, Chebyshev, GaussSeidel, Jacobi, Pia, Preconditioned, Staged,
@@ -36,9 +36,7 @@ pub(super) fn choose_both<'a>(
     let mut choices = Vec::new();
     let mut eigenvalue = None;
     let mut smallest = || -> Result<f64, Error> {
-        let bounds = [u, v].map(|a| a.factor(None).map(|f| smallest_eigenvalue(&f)));
-        let [u, v] = bounds;
-        let (u, v) = (u?, v?);
+        let (u, v) = (smallest_eigenvalue_of(u)?, smallest_eigenvalue_of(v)?);
         let tight = u.estimate <= 1.5 * u.lower && v.estimate <= 1.5 * v.lower;
         eigenvalue = tight.then_some(u.estimate * v.estimate);
         // Eigenvalues of a Kronecker product are products.
