@@ -54,10 +54,11 @@ pub mod fit;
 
 pub use error::Error;
 pub use fit::{
-    CurveFit, CurveOptions, IterationWeight, KeptFit, Method, SurfaceFit, SurfaceOptions,
-    fit_curve, fit_curve_observed, fit_surface, fit_surface_observed,
+    BlendingCurveFit, BlendingOptions, BlendingSurfaceFit, BlendingSurfaceOptions, CurveFit,
+    CurveOptions, IterationWeight, KeptFit, Method, SurfaceFit, SurfaceOptions, fit_blending_curve,
+    fit_blending_surface, fit_curve, fit_curve_observed, fit_surface, fit_surface_observed,
 };
-pub use geometry::{Curve, Surface};
+pub use geometry::{BlendingCurve, BlendingSurface, Curve, Surface};
 pub use iteration::{HistoryEntry, Termination};
 pub use knots::{KnotPlacement, KnotVector};
 pub use parameters::Parameterization;

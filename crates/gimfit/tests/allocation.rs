@@ -4,7 +4,7 @@
 
 use gimfit::collocation::interpolation;
 use gimfit::iteration::update::{
-    Chebyshev, GaussSeidel, Jacobi, PerPoint, Pia, Preconditioned, Sor, Staged, Weighted,
+    Anderson, Chebyshev, GaussSeidel, Jacobi, PerPoint, Pia, Preconditioned, Sor, Staged, Weighted,
 };
 use gimfit::iteration::{IterationState, UpdateRule};
 use gimfit::knots::place_knots;
@@ -22,7 +22,7 @@ fn steps_allocate_nothing() {
         let knots = place_knots(3, &t, &KnotPlacement::Averaged).unwrap();
         let operator = interpolation(&t, &knots).unwrap().operator;
         let whole = || Preconditioned::new(&operator, None).unwrap();
-        let rules: [Box<dyn UpdateRule + '_>; 9] = [
+        let rules: [Box<dyn UpdateRule + '_>; 11] = [
             Box::new(Pia),
             Box::new(Weighted::new(1.2)),
             Box::new(PerPoint::new(vec![1.1; COUNT])),
@@ -30,6 +30,8 @@ fn steps_allocate_nothing() {
             Box::new(GaussSeidel::new(&operator)),
             Box::new(Sor::new(&operator, 1.1)),
             Box::new(Chebyshev::new(0.1, 1.0, 3 * COUNT)),
+            Box::new(Anderson::new(10, 3 * COUNT)),
+            Box::new(Anderson::new(2, 3 * COUNT)),
             Box::new(whole()),
             Box::new(Staged::new(Pia, 2, whole())),
         ];

@@ -50,6 +50,7 @@ fn any_options() -> impl Strategy<Value = CurveOptions> {
         Method::GaussSeidel,
         Method::Sor,
         Method::Chebyshev,
+        Method::Anderson { memory: None },
         Method::Preconditioned { half_bandwidth: None },
         Method::Preconditioned { half_bandwidth: Some(1) },
     ]);

@@ -145,6 +145,7 @@ fn every_method_reaches_the_same_limit() {
                 Method::GaussSeidel,
                 Method::Sor,
                 Method::Chebyshev,
+                Method::Anderson { memory: None },
                 Method::Preconditioned { half_bandwidth: Some(1) },
             ] {
                 // Over-relaxation is refused for a whole net; Jacobi's eigenvalues reach 1.5 in each

@@ -199,6 +199,10 @@ impl CollocationMatrix for DenseCollocation {
             .ok_or_else(|| Error::SingularBasis { basis: self.name.clone(), points: self.count })
     }
 
+    fn structure(&self) -> &'static str {
+        "matrix"
+    }
+
     fn is_totally_positive(&self) -> bool {
         self.totally_positive
     }

@@ -78,6 +78,11 @@ pub trait CollocationMatrix: CollocationOperator {
     /// converges (Lin, Bao and Wang 2005).
     fn is_totally_positive(&self) -> bool;
 
+    /// What is factored, in a word: a band, or the whole matrix.
+    fn structure(&self) -> &'static str {
+        "band"
+    }
+
     /// The smallest eigenvalue, where a law gives it in closed form.
     fn known_smallest_eigenvalue(&self) -> Option<f64> {
         None

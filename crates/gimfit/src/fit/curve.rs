@@ -219,6 +219,17 @@ pub(super) fn finish_parameters(
 ) -> (Vec<f64>, f64) {
     let period = parameters.period();
     let mut values = parameters.into_values();
+    let ratio = spacing_ratio(&values, period);
+    if matches!(layout, ControlLayout::Periodic { .. }) {
+        let period = period.unwrap_or_default();
+        values.iter_mut().for_each(|t| *t = wrap(*t, knots.domain(), period));
+    }
+    (values, ratio)
+}
+
+/// Longest step of ascending parameters over the shortest; a closed curve's last step leads back to
+/// the first.
+pub(super) fn spacing_ratio(values: &[f64], period: Option<f64>) -> f64 {
     let (mut shortest, mut longest) = (f64::INFINITY, 0.0);
     let mut note = |step: f64| {
         shortest = if step < shortest { step } else { shortest };
@@ -230,11 +241,7 @@ pub(super) fn finish_parameters(
     {
         note(first + period - last);
     }
-    if matches!(layout, ControlLayout::Periodic { .. }) {
-        let period = period.unwrap_or_default();
-        values.iter_mut().for_each(|t| *t = wrap(*t, knots.domain(), period));
-    }
-    (values, longest / shortest)
+    if longest > 0.0 { longest / shortest } else { 1.0 }
 }
 
 fn unscale(curve: Curve, scale: PowerOfTwoScale) -> Result<Curve, Error> {

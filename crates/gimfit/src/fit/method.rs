@@ -5,7 +5,7 @@ use crate::Error;
 use crate::collocation::{CollocationMatrix, gauss_seidel_rate, smallest_eigenvalue_of};
 use crate::iteration::UpdateRule;
 use crate::iteration::update::{
-    Chebyshev, GaussSeidel, Jacobi, PerPoint, Pia, Preconditioned, Sor, Staged, Weighted,
+    Anderson, Chebyshev, GaussSeidel, Jacobi, PerPoint, Pia, Preconditioned, Sor, Staged, Weighted,
 };
 
 /// A rule ready to run.
@@ -45,11 +45,11 @@ pub(super) fn choose<'a>(
                 ));
                 ("auto", Box::new(Staged::new(Pia, gradual, whole_band)))
             } else {
-                choices.push(
-                    "method: preconditioned PIA with the whole band, which reaches rounding level \
-                     in a few steps on any spacing"
-                        .into(),
-                );
+                choices.push(format!(
+                    "method: preconditioned PIA with the whole {}, which reaches rounding level in \
+                     a few steps on any spacing",
+                    operator.structure()
+                ));
                 ("preconditioned", Box::new(whole_band))
             }
         }
@@ -74,6 +74,9 @@ pub(super) fn choose<'a>(
             let length = operator.points() * dimension;
             ("chebyshev", Box::new(Chebyshev::new(least, 1.0, length)))
         }
+        Method::Anderson { memory } => {
+            ("anderson", Box::new(anderson(memory, operator.points(), dimension, &mut choices)?))
+        }
         Method::Preconditioned { half_bandwidth } => {
             ("preconditioned", Box::new(Preconditioned::new(operator, half_bandwidth)?))
         }
@@ -97,6 +100,31 @@ pub(super) fn weighted(
         }
     })
 }
+
+/// Anderson acceleration of PIA on so many points.
+pub(super) fn anderson(
+    memory: Option<usize>,
+    points: usize,
+    dimension: usize,
+    choices: &mut Vec<String>,
+) -> Result<Anderson, Error> {
+    let steps = memory.unwrap_or_else(|| {
+        let steps = Anderson::default_memory(points);
+        choices.push(format!("memory: {steps} steps"));
+        steps
+    });
+    if !(1..=MOST_MEMORY).contains(&steps) {
+        return Err(Error::OutOfRange {
+            what: "memory of anderson".into(),
+            value: steps as f64,
+            rule: "it must lie between 1 and 1000 steps",
+        });
+    }
+    Ok(Anderson::new(steps, points * dimension))
+}
+
+/// Most steps that Anderson acceleration remembers.
+const MOST_MEMORY: usize = 1000;
 
 pub(super) fn check_weight(
     method: Method,

@@ -1,5 +1,7 @@
 //! The recipes: from points to a curve and a report. The only room that knows all others.
 
+mod blending;
+mod blending_surface;
 mod curve;
 mod keep;
 mod method;
@@ -9,7 +11,13 @@ mod solve;
 mod surface;
 mod surface_method;
 
+pub use blending::{BlendingCurveFit, fit_blending_curve, fit_blending_curve_observed};
+pub use blending_surface::{
+    BlendingSurfaceFit, fit_blending_surface, fit_blending_surface_observed,
+};
 pub use curve::{CurveFit, fit_curve, fit_curve_observed, interpolate};
 pub use keep::KeptFit;
-pub use options::{CurveOptions, IterationWeight, Method, SurfaceOptions};
+pub use options::{
+    BlendingOptions, BlendingSurfaceOptions, CurveOptions, IterationWeight, Method, SurfaceOptions,
+};
 pub use surface::{SurfaceFit, fit_surface, fit_surface_observed};

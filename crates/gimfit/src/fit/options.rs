@@ -24,6 +24,11 @@ pub enum Method {
     Sor,
     /// Chebyshev semi-iterative PIA (Liu, Han and Li 2017).
     Chebyshev,
+    /// Anderson-accelerated PIA (Anderson 1965).
+    Anderson {
+        /// Steps remembered, from 1; `None`: 10, or the number of points if that is less.
+        memory: Option<usize>,
+    },
     /// Preconditioned PIA (Liu and Liu 2020) with a half bandwidth, or the whole band.
     Preconditioned {
         /// Entries farther from the diagonal are added to it; `None` keeps all.
@@ -82,6 +87,72 @@ impl Default for CurveOptions {
             iterations: 1000,
             residual: None,
             duplicates: Duplicates::Error,
+            keep: Vec::new(),
+        }
+    }
+}
+
+/// What a caller chooses for [`fit_blending_curve`](super::fit_blending_curve); the basis gives the
+/// degree.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BlendingOptions {
+    /// How parameters are assigned; `None`: uniform. They are brought onto the domain of the basis,
+    /// unless given ones lie in it.
+    pub parameterization: Option<Parameterization>,
+    /// The rule that moves the control points.
+    pub method: Method,
+    /// Its weight.
+    pub weight: IterationWeight,
+    /// Most steps.
+    pub iterations: usize,
+    /// Largest residual to be reached, as in [`CurveOptions::residual`].
+    pub residual: Option<f64>,
+    /// Iterations whose fits are kept.
+    pub keep: Vec<usize>,
+}
+
+impl Default for BlendingOptions {
+    fn default() -> Self {
+        Self {
+            parameterization: None,
+            method: Method::Auto,
+            weight: IterationWeight::Auto,
+            iterations: 1000,
+            residual: None,
+            keep: Vec::new(),
+        }
+    }
+}
+
+/// What a caller chooses for [`fit_blending_surface`](super::fit_blending_surface). Pairs hold
+/// direction u (rows), then direction v (columns).
+#[derive(Debug, Clone, PartialEq)]
+pub struct BlendingSurfaceOptions {
+    /// How parameters are assigned, as in [`BlendingOptions::parameterization`].
+    pub parameterizations: [Option<Parameterization>; 2],
+    /// The rule that moves the control points.
+    pub method: Method,
+    /// Its weight.
+    pub weight: IterationWeight,
+    /// Whether the columns are run to their limit first, then the rows.
+    pub per_direction: bool,
+    /// Most steps; per direction, in each.
+    pub iterations: usize,
+    /// Largest residual to be reached, as in [`CurveOptions::residual`].
+    pub residual: Option<f64>,
+    /// Iterations whose fits are kept.
+    pub keep: Vec<usize>,
+}
+
+impl Default for BlendingSurfaceOptions {
+    fn default() -> Self {
+        Self {
+            parameterizations: [None, None],
+            method: Method::Auto,
+            weight: IterationWeight::Auto,
+            per_direction: false,
+            iterations: 1000,
+            residual: None,
             keep: Vec::new(),
         }
     }

@@ -31,14 +31,8 @@ pub(super) fn prepare<'a>(
         return Err(Error::NoPoints { needed });
     }
     let extent = Extent::of(points)?;
+    check_extent(&extent)?;
     let diagonal = extent.diagonal();
-    if diagonal > 0.0 && diagonal < SMALLEST_EXTENT {
-        return Err(Error::OutOfRange {
-            what: "extent of the data".into(),
-            value: diagonal,
-            rule: "below 1e-307 doubles lose digits; scale the data up",
-        });
-    }
     let mut parameterization = match &options.parameterization {
         Some(parameterization) => parameterization.clone(),
         None if points.dimension() == 1 => {
@@ -78,6 +72,19 @@ pub(super) fn prepare<'a>(
         return Err(Error::TooFewPoints { points: left, degree: options.degree, needed });
     }
     Ok(Prepared { cleaned, extent, parameterization, choices, dimension })
+}
+
+/// Refuses data whose differences underflow.
+pub(super) fn check_extent(extent: &Extent) -> Result<(), Error> {
+    let diagonal = extent.diagonal();
+    if diagonal > 0.0 && diagonal < SMALLEST_EXTENT {
+        return Err(Error::OutOfRange {
+            what: "extent of the data".into(),
+            value: diagonal,
+            rule: "below 1e-307 doubles lose digits; scale the data up",
+        });
+    }
+    Ok(())
 }
 
 /// Takes the repetition of the first point off the end of a closed curve.

@@ -94,11 +94,7 @@ pub fn fit_surface_observed(
     let expand = |control| layout.expand(control, dimension);
     let stopping = size.stopping(options.residual, options.iterations, &mut choices)?;
     let setting = Setting { view, size: &size, directions, options, stopping, expand: &expand };
-    let mut solved = if options.per_direction {
-        per_direction(&setting, observer)?
-    } else {
-        at_once(&setting, observer)?
-    };
+    let mut solved = run_net(&setting, observer)?;
     choices.append(&mut solved.run.choices);
     solved.run.choices = choices;
 
@@ -245,13 +241,23 @@ fn direction(
 }
 
 /// Everything the two ways of running share.
-struct Setting<'a> {
-    view: GridView<'a>,
-    size: &'a Size,
-    directions: Directions<'a>,
-    options: &'a SurfaceOptions,
-    stopping: Stopping,
-    expand: &'a dyn Fn(Vec<f64>) -> Vec<f64>,
+pub(super) struct Setting<'a> {
+    pub(super) view: GridView<'a>,
+    pub(super) size: &'a Size,
+    pub(super) directions: Directions<'a>,
+    /// Only method, weight, order, iterations and kept fits count.
+    pub(super) options: &'a SurfaceOptions,
+    pub(super) stopping: Stopping,
+    pub(super) expand: &'a dyn Fn(Vec<f64>) -> Vec<f64>,
+}
+
+/// Runs the rule on the net, in the order the options say.
+pub(super) fn run_net(setting: &Setting<'_>, observer: &mut dyn Observer) -> Result<Solved, Error> {
+    if setting.options.per_direction {
+        per_direction(setting, observer)
+    } else {
+        at_once(setting, observer)
+    }
 }
 
 impl<'a> Setting<'a> {

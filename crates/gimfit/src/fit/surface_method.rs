@@ -1,6 +1,6 @@
 //! From a named method to a rule on a grid of points.
 
-use super::method::{ChosenRule, check_weight, choose, weighted};
+use super::method::{ChosenRule, anderson, check_weight, choose, weighted};
 use super::{IterationWeight, Method};
 use crate::Error;
 use crate::collocation::{CollocationMatrix, smallest_eigenvalue_of};
@@ -54,11 +54,11 @@ pub(super) fn choose_both<'a>(
             ("auto", Box::new(Staged::new(Pia, gradual, banded(None)?)))
         }
         Method::Auto => {
-            choices.push(
-                "method: preconditioned PIA with the whole band in both directions, which reaches \
-                 rounding level in a few steps on any spacing"
-                    .into(),
-            );
+            choices.push(format!(
+                "method: preconditioned PIA with the whole {} in both directions, which reaches \
+                 rounding level in a few steps on any spacing",
+                u.structure()
+            ));
             ("preconditioned", Box::new(banded(None)?))
         }
         Method::Pia => ("pia", Box::new(Pia)),
@@ -79,6 +79,9 @@ pub(super) fn choose_both<'a>(
             let least = smallest()?;
             choices.push(format!("interval of eigenvalues: [{least:.4e}, 1]"));
             ("chebyshev", Box::new(Chebyshev::new(least, 1.0, directions.points() * dimension)))
+        }
+        Method::Anderson { memory } => {
+            ("anderson", Box::new(anderson(memory, directions.points(), dimension, &mut choices)?))
         }
         Method::Preconditioned { half_bandwidth } => {
             ("preconditioned", Box::new(banded(half_bandwidth)?))
@@ -110,7 +113,10 @@ pub(super) fn choose_along<'a>(
     let rows = directions.u.points();
     let mut chosen = choose(method, weight, directions.v, rows * dimension, 0)?;
     // A rule that scales and adds whole arrays serves all rows at once, and may remember them.
-    let whole = matches!(method, Method::Pia | Method::Weighted | Method::Chebyshev);
+    let whole = matches!(
+        method,
+        Method::Pia | Method::Weighted | Method::Chebyshev | Method::Anderson { .. }
+    );
     if !whole {
         chosen.rule = Box::new(Along::new(chosen.rule, directions.v.points()));
     }

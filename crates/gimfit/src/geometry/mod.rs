@@ -1,8 +1,10 @@
-//! What a fit yields: B-spline curves and surfaces that can be evaluated, derived and drawn.
+//! What a fit yields: curves and surfaces that can be evaluated, derived and drawn.
 
+mod blending;
 mod curve;
 mod surface;
 
+pub use blending::{BlendingCurve, BlendingSurface};
 pub use curve::Curve;
 pub use surface::Surface;
 

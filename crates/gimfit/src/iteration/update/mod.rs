@@ -1,5 +1,6 @@
 //! Published rules: how difference vectors become adjusting vectors. One file each.
 
+mod anderson;
 mod chebyshev;
 mod gauss_seidel;
 mod grid;
@@ -9,6 +10,7 @@ mod preconditioned;
 mod staged;
 mod weighted;
 
+pub use anderson::Anderson;
 pub use chebyshev::Chebyshev;
 pub use gauss_seidel::{GaussSeidel, Sor};
 pub use grid::{Across, Along, Both};
