@@ -199,8 +199,8 @@ impl CollocationMatrix for DenseCollocation {
             .ok_or_else(|| Error::SingularBasis { basis: self.name.clone(), points: self.count })
     }
 
-    fn structure(&self) -> &'static str {
-        "matrix"
+    fn is_dense(&self) -> bool {
+        true
     }
 
     fn is_totally_positive(&self) -> bool {

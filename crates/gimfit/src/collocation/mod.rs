@@ -78,9 +78,9 @@ pub trait CollocationMatrix: CollocationOperator {
     /// converges (Lin, Bao and Wang 2005).
     fn is_totally_positive(&self) -> bool;
 
-    /// What is factored, in a word: a band, or the whole matrix.
-    fn structure(&self) -> &'static str {
-        "band"
+    /// Whether every entry may differ from zero: a matrix without a band.
+    fn is_dense(&self) -> bool {
+        false
     }
 
     /// The smallest eigenvalue, where a law gives it in closed form.

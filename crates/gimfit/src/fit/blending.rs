@@ -7,13 +7,15 @@ use super::solve::{Size, Task, norm, solve, unscaled};
 use super::{BlendingOptions, CurveFit, KeptFit, Method};
 use crate::Error;
 use crate::basis::BlendingBasis;
-use crate::collocation::{CollocationMatrix, CollocationOperator, DenseCollocation};
+use crate::collocation::{
+    CollocationMatrix, CollocationOperator, DenseCollocation, smallest_eigenvalue_of,
+};
 use crate::geometry::BlendingCurve;
-use crate::iteration::{NoObserver, Observer};
+use crate::iteration::{NoObserver, Observer, Termination};
 use crate::parameters::{Parameterization, Parameters, assign_parameters};
 use crate::points::{Extent, Points, PointsView};
 use crate::projection::largest_deviation;
-use crate::report::CurveReport;
+use crate::report::{CurveReport, RunReport};
 use std::sync::Arc;
 
 /// A fitted curve over a blending basis and the account of how it came about.
@@ -131,6 +133,7 @@ pub fn fit_blending_curve_observed<'a>(
     };
     let mut solved = solve(&task, &mut rule, observer)?;
     drop(rule);
+    note_near_singularity(&[&operator], &mut solved.run);
 
     let scale = size.scale;
     let curve = BlendingCurve::new(basis, Points::new(dimension, solved.control)?)?;
@@ -232,6 +235,27 @@ pub(super) fn onto_domain(
         *t = end;
     }
     Parameters::open(moved)
+}
+
+/// Below this smallest eigenvalue the data need more digits than doubles have.
+const NEARLY_SINGULAR: f64 = 1e-11;
+
+/// Explains a run that ended short of its residual because no run could reach it.
+pub(super) fn note_near_singularity(operators: &[&DenseCollocation], run: &mut RunReport) {
+    if run.termination != Termination::Stalled {
+        return;
+    }
+    let mut smallest = 1.0;
+    for operator in operators {
+        smallest *= smallest_eigenvalue_of(*operator).map_or(0.0, |bounds| bounds.estimate);
+    }
+    if smallest < NEARLY_SINGULAR {
+        run.choices.push(format!(
+            "caution: the collocation matrix is close to singular in doubles (smallest eigenvalue \
+             {smallest:.0e}), so that control points of rough data grow beyond their digits: fit \
+             fewer points at once, or use B-splines"
+        ));
+    }
 }
 
 /// What a method rests on and a basis does not offer.

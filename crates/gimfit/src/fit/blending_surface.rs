@@ -1,6 +1,6 @@
 //! Interpolation of a grid of points by a tensor-product surface over any blending bases.
 
-use super::blending::{cautions, onto_domain};
+use super::blending::{cautions, note_near_singularity, onto_domain};
 use super::curve::{parameterization_name, spacing_ratio};
 use super::prepare::check_extent;
 use super::solve::{Size, norm, unscaled};
@@ -126,6 +126,7 @@ pub fn fit_blending_surface_observed(
         expand: &|control| control,
     };
     let mut solved = run_net(&setting, observer)?;
+    note_near_singularity(&[&u.operator, &v.operator], &mut solved.run);
 
     let scale = size.scale;
     let net = PointGrid::new(view.shape(), dimension, solved.control)?;

@@ -45,11 +45,7 @@ pub(super) fn choose<'a>(
                 ));
                 ("auto", Box::new(Staged::new(Pia, gradual, whole_band)))
             } else {
-                choices.push(format!(
-                    "method: preconditioned PIA with the whole {}, which reaches rounding level in \
-                     a few steps on any spacing",
-                    operator.structure()
-                ));
+                choices.push(format!("method: {}", whole(operator, "")));
                 ("preconditioned", Box::new(whole_band))
             }
         }
@@ -99,6 +95,19 @@ pub(super) fn weighted(
             Box::new(Weighted::new(omega))
         }
     })
+}
+
+/// What `auto` is, and why. `place` is empty, or names the directions.
+pub(super) fn whole(operator: &dyn CollocationMatrix, place: &str) -> String {
+    let (what, where_to) = if operator.is_dense() {
+        ("matrix", "unless the matrix is close to singular")
+    } else {
+        ("band", "on any spacing")
+    };
+    format!(
+        "preconditioned PIA with the whole {what}{place}, which reaches rounding level in a few \
+         steps {where_to}"
+    )
 }
 
 /// Anderson acceleration of PIA on so many points.

@@ -1,6 +1,6 @@
 //! From a named method to a rule on a grid of points.
 
-use super::method::{ChosenRule, anderson, check_weight, choose, weighted};
+use super::method::{ChosenRule, anderson, check_weight, choose, weighted, whole};
 use super::{IterationWeight, Method};
 use crate::Error;
 use crate::collocation::{CollocationMatrix, smallest_eigenvalue_of};
@@ -54,11 +54,7 @@ pub(super) fn choose_both<'a>(
             ("auto", Box::new(Staged::new(Pia, gradual, banded(None)?)))
         }
         Method::Auto => {
-            choices.push(format!(
-                "method: preconditioned PIA with the whole {} in both directions, which reaches \
-                 rounding level in a few steps on any spacing",
-                u.structure()
-            ));
+            choices.push(format!("method: {}", whole(u, " in both directions")));
             ("preconditioned", Box::new(banded(None)?))
         }
         Method::Pia => ("pia", Box::new(Pia)),
