@@ -91,9 +91,20 @@ pub(crate) struct CurveArguments {
     #[command(flatten)]
     pub(crate) input: InputArguments,
 
-    /// Degree of the curve
-    #[arg(long, default_value_t = 3, value_name = "P", help_heading = "Curve")]
-    pub(crate) degree: usize,
+    /// Degree of the curve [default: 3; with another basis than b-spline one less than the points]
+    #[arg(long, value_name = "P", help_heading = "Curve")]
+    pub(crate) degree: Option<usize>,
+
+    /// Basis of the curve. All but b-spline take one function per point, up to 26 points, and
+    /// uniform parameters by default
+    #[arg(
+        long,
+        value_enum,
+        default_value = "b-spline",
+        value_name = "BASIS",
+        help_heading = "Curve"
+    )]
+    pub(crate) basis: BasisChoice,
 
     /// Close the curve smoothly; the first point may be repeated at the end or not
     #[arg(long, help_heading = "Curve")]
@@ -173,6 +184,11 @@ pub(crate) struct IterationArguments {
     /// Half bandwidth kept by the preconditioned method [default: the whole band]
     #[arg(long, value_name = "Q", help_heading = "Iteration")]
     pub(crate) bandwidth: Option<usize>,
+
+    /// Steps remembered by the anderson method [default: 10; on dense bases 40; at
+    /// most the points, on dense bases twice as many]
+    #[arg(long, value_name = "Q", help_heading = "Iteration")]
+    pub(crate) memory: Option<usize>,
 
     /// Most iterations
     #[arg(long, default_value_t = 1000, value_name = "N", help_heading = "Iteration")]
@@ -260,6 +276,18 @@ pub(crate) enum KnotRule {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum BasisChoice {
+    BSpline,
+    /// Bezier curves and surfaces
+    Bernstein,
+    /// Not totally positive
+    WangBall,
+    SaidBall,
+    /// Of Delgado and Pena
+    Dp,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum DuplicatesChoice {
     /// Refuse the data, naming the rows
     Error,
@@ -295,6 +323,8 @@ pub(crate) enum MethodChoice {
     Sor,
     /// Three-term recurrence
     Chebyshev,
+    /// Combines the last few steps so that they leave least
+    Anderson,
     /// Preconditioned by the band
     Preconditioned,
 }

@@ -134,6 +134,9 @@ fn of_surface(document: &SurfaceDocument, name: String) -> Facts {
             }
         }
     }
+    if let Some(blending) = &document.blending {
+        facts.add("bases", blending.bases.to_vec());
+    }
     if let Some(report) = &document.report {
         if let Some(source) = &report.source {
             facts.add("fitted_to", source.clone());
@@ -171,6 +174,9 @@ fn of_document(document: &Document, name: String) -> Facts {
             let (start, end) = curve.domain();
             facts.add("domain", vec![start, end]);
         }
+    }
+    if let Some(blending) = &document.blending {
+        facts.add("basis", blending.basis.clone());
     }
     if let Some(report) = &document.report {
         if let Some(source) = &report.source {

@@ -1,6 +1,7 @@
 //! The program `gimfit`: raw arguments, then a checked plan, then the run, then what is printed.
 
 mod arguments;
+mod basis;
 mod complete;
 mod curve;
 mod evaluate;

@@ -1,13 +1,18 @@
 //! Methods and their weights, as the arguments of curves and surfaces give them.
 
-use crate::arguments::MethodChoice;
+use crate::arguments::{IterationArguments, MethodChoice};
 use crate::{input, values};
 use anyhow::{anyhow, ensure};
 use gimfit::{IterationWeight, Method};
 use std::path::Path;
 
-/// The method of `--method` and `--bandwidth`.
-pub(crate) fn method(choice: MethodChoice, bandwidth: Option<usize>) -> anyhow::Result<Method> {
+/// The method of `--method`, `--bandwidth` and `--memory`.
+pub(crate) fn method(arguments: &IterationArguments) -> anyhow::Result<Method> {
+    let IterationArguments { method: choice, bandwidth, memory, .. } = *arguments;
+    ensure!(
+        memory.is_none() || choice == MethodChoice::Anderson,
+        "--memory belongs to --method anderson"
+    );
     ensure!(
         bandwidth.is_none() || choice == MethodChoice::Preconditioned,
         "--bandwidth belongs to --method preconditioned"
@@ -20,6 +25,7 @@ pub(crate) fn method(choice: MethodChoice, bandwidth: Option<usize>) -> anyhow::
         MethodChoice::GaussSeidel => Method::GaussSeidel,
         MethodChoice::Sor => Method::Sor,
         MethodChoice::Chebyshev => Method::Chebyshev,
+        MethodChoice::Anderson => Method::Anderson { memory },
         MethodChoice::Preconditioned => Method::Preconditioned { half_bandwidth: bandwidth },
     })
 }

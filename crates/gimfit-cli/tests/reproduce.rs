@@ -39,7 +39,7 @@ fn tables_are_listed_one_a_line() {
     assert_eq!(code, 0);
     let names: Vec<&str> =
         printed.lines().filter_map(|line| line.split_whitespace().next()).collect();
-    assert_eq!(names, ["wang2007", "functions2007", "lin2004", "orsi2021", "spectra"]);
+    assert_eq!(names, ["wang2007", "functions2007", "lin2004", "orsi2021", "spectra", "bases"]);
 }
 
 #[test]

@@ -76,7 +76,9 @@ mod pages {
     pages! {
         Readme: "README.md",
         Contributing: "CONTRIBUTING.md",
+        Anderson: "docs/methods/anderson.md",
         Auto: "docs/methods/auto.md",
+        Bases: "docs/methods/bases.md",
         Chebyshev: "docs/methods/chebyshev.md",
         Closed: "docs/methods/closed.md",
         FootPoints: "docs/methods/foot-points.md",

@@ -23,6 +23,11 @@ pub(super) fn figure(job: &Job<'_>) -> String {
         None
     };
     let free = curve.free_control_points();
+    // Of the basis that was fitted, not of its Bezier form.
+    let control_points = match &job.document.blending {
+        Some(blending) => blending.control_points.values.as_slice(),
+        None => &curve.control_points().coordinates()[..free * dimension],
+    };
     let greville = curve.knots().greville_abscissae();
     let data = fitted_points(job);
     let history: Vec<(usize, f64, f64)> = report
@@ -55,8 +60,10 @@ pub(super) fn figure(job: &Job<'_>) -> String {
         (None, Some(name)) => name.into_owned(),
         (None, None) => table.source.clone(),
     };
+    let basis = job.document.blending.as_ref().map(|blending| format!("{} of ", blending.basis));
     let caption = format!(
-        "{}, {} points, {} control points, {}, {} iteration{}, largest residual {:.2e}",
+        "{}{}, {} points, {} control points, {}, {} iteration{}, largest residual {:.2e}",
+        basis.unwrap_or_default(),
         degree_name(report.degree),
         report.points,
         report.control_points,
@@ -75,7 +82,7 @@ pub(super) fn figure(job: &Job<'_>) -> String {
         closed: report.closed,
         data_points: &data,
         parameters: &fit.parameters,
-        control_points: &curve.control_points().coordinates()[..free * dimension],
+        control_points,
         abscissae_of_control_points: &greville[..free],
         curve_samples: CurveSamples {
             parameters: &parameters,

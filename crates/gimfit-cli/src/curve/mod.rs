@@ -8,6 +8,7 @@ mod save;
 
 use crate::Ending;
 use crate::arguments::CurveArguments;
+use crate::basis::described;
 use crate::explain::explain;
 use crate::finish::{Finish, Run};
 use crate::outputs::Wanted;
@@ -15,16 +16,41 @@ use crate::progress::Progress;
 use crate::signal::{self, Stage};
 use anyhow::ensure;
 use explain_fit::explain_fit;
-use gimfit::{PointsView, fit_curve_observed};
-use gimfit_io::document::{Document, Seconds, document_of};
+use gimfit::basis::BlendingBasis;
+use gimfit::fit::fit_blending_curve_observed;
+use gimfit::iteration::Observer;
+use gimfit::{BlendingOptions, CurveFit, CurveOptions, Error, PointsView, fit_curve_observed};
+use gimfit_io::document::{BlendingData, Document, Seconds, document_of};
 use gimfit_io::points::PointTable;
 use plan::Plan;
+use std::sync::Arc;
 use std::time::Instant;
+
+/// A fit over another basis, in Bezier form, with what a document tells of the basis.
+fn blended(
+    points: PointsView<'_>,
+    basis: &Arc<dyn BlendingBasis>,
+    options: &CurveOptions,
+    observer: &mut dyn Observer,
+) -> Result<(CurveFit, Option<BlendingData>), Error> {
+    let options = BlendingOptions {
+        parameterization: options.parameterization.clone(),
+        method: options.method,
+        weight: options.weight.clone(),
+        iterations: options.iterations,
+        residual: options.residual,
+        keep: options.keep.clone(),
+    };
+    let fit = fit_blending_curve_observed(points, Arc::clone(basis), &options, observer)?;
+    Ok((fit.to_bezier()?, Some(BlendingData::of(&fit.curve))))
+}
 
 /// A fit with everything that is told about it.
 struct Job<'a> {
     table: &'a PointTable,
-    fit: &'a gimfit::CurveFit,
+    fit: &'a CurveFit,
+    /// What was blended, in words, if no B-splines were.
+    basis: Option<String>,
     /// Samples in place of control points.
     samples: Option<usize>,
     document: Document,
@@ -36,7 +62,7 @@ pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
     signal::listen()?;
     let clock = Instant::now();
     let plan = Plan::new(arguments)?;
-    let Plan { table, options } = plan;
+    let Plan { table, options, basis } = plan;
     let read = clock.elapsed().as_secs_f64();
 
     let view = PointsView::new(table.dimension(), &table.coordinates)
@@ -44,20 +70,30 @@ pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
     let mut progress = Progress::new(arguments.writing.quiet, options.iterations);
     signal::enter(Stage::Fitting);
     let clock = Instant::now();
-    let result = fit_curve_observed(view, &options, &mut progress);
+    let result = match &basis {
+        None => fit_curve_observed(view, &options, &mut progress).map(|fit| (fit, None)),
+        Some(basis) => blended(view, basis, &options, &mut progress),
+    };
     let fitted = clock.elapsed().as_secs_f64();
     signal::enter(Stage::Writing);
     progress.finish();
-    let fit = result.map_err(|error| explain_fit(error, &table, arguments))?;
+    let (fit, blending) = result.map_err(|error| explain_fit(error, &table, arguments))?;
 
     let mut document = document_of(&fit);
+    document.blending = blending;
     document.coordinate_names = Some(table.column_names.clone());
     if let Some(report) = &mut document.report {
         report.source = Some(table.source.clone());
         report.run.choices.splice(0..0, table.notes.iter().map(|note| format!("reading: {note}")));
         report.run.seconds = Some(Seconds { read, fit: fitted, write: None });
     }
-    let mut job = Job { table: &table, fit: &fit, samples: arguments.samples, document };
+    let mut job = Job {
+        table: &table,
+        fit: &fit,
+        basis: basis.as_deref().map(described),
+        samples: arguments.samples,
+        document,
+    };
     let report = &fit.report;
     let finish = Finish {
         wanted: Wanted::new(&arguments.writing, arguments.samples.is_some()),

@@ -1,17 +1,22 @@
 //! From arguments to points and options, with all that can be checked before the run.
 
-use crate::arguments::{CurveArguments, KnotRule, ParameterRule, RuleOrFile};
+use crate::arguments::{CurveArguments, DuplicatesChoice, KnotRule, ParameterRule, RuleOrFile};
+use crate::basis::{basis, only_b_splines};
 use crate::input;
 use crate::method::{ensure_kept_fits_fit, method, weight, weight_file};
 use anyhow::{bail, ensure};
+use gimfit::basis::BlendingBasis;
 use gimfit::{CurveOptions, KnotPlacement, Parameterization};
 use gimfit_io::points::PointTable;
 use std::path::Path;
+use std::sync::Arc;
 
 /// What will be run.
 pub(super) struct Plan {
     pub(super) table: PointTable,
     pub(super) options: CurveOptions,
+    /// What is blended, if no B-splines are.
+    pub(super) basis: Option<Arc<dyn BlendingBasis>>,
 }
 
 impl Plan {
@@ -20,7 +25,7 @@ impl Plan {
             !(arguments.input.abscissa.is_some() && arguments.parameters.is_some()),
             "--abscissa and --parameters both give the parameters; use one of them"
         );
-        let method = method(arguments.iteration.method, arguments.iteration.bandwidth)?;
+        let method = method(&arguments.iteration)?;
         let weight = weight(&arguments.iteration.weight)?;
         let mut table = input::points(&arguments.input)?;
         let numbers = table.coordinates.len();
@@ -33,8 +38,9 @@ impl Plan {
         if arguments.sort {
             table.sort_by_abscissa();
         }
+        let basis = blending(arguments, &table)?;
         let options = CurveOptions {
-            degree: arguments.degree,
+            degree: arguments.degree.unwrap_or(CurveOptions::default().degree),
             closed: arguments.closed,
             parameterization: parameterization(arguments, &mut table)?,
             knot_placement: arguments.knots.as_ref().map(knot_placement).transpose()?,
@@ -45,8 +51,27 @@ impl Plan {
             duplicates: arguments.duplicates.into(),
             keep: arguments.iteration.keep.clone(),
         };
-        Ok(Self { table, options })
+        Ok(Self { table, options, basis })
     }
+}
+
+/// The basis that is no B-spline, with the options that would contradict it refused.
+fn blending(
+    arguments: &CurveArguments,
+    table: &PointTable,
+) -> anyhow::Result<Option<Arc<dyn BlendingBasis>>> {
+    let basis = basis(arguments.basis, table.rows(), "points", &table.source)?;
+    if basis.is_some() {
+        only_b_splines("--degree", arguments.degree.is_some(), "the points give the degree")?;
+        only_b_splines("--knots", arguments.knots.is_some(), "other bases have none")?;
+        only_b_splines("--closed", arguments.closed, "other bases are open")?;
+        only_b_splines(
+            "--duplicates",
+            arguments.duplicates != DuplicatesChoice::Error,
+            "with uniform parameters repeated points are fitted as they are",
+        )?;
+    }
+    Ok(basis)
 }
 
 /// The files to read, by the argument that names them.

@@ -21,7 +21,8 @@ pub(super) fn report(job: &Job<'_>, written: &[String]) -> String {
     lines.add(
         "curve",
         &format!(
-            "degree {}, {}, {} control points{}",
+            "{}degree {}, {}, {} control points{}",
+            job.basis.as_ref().map(|basis| format!("{basis} of ")).unwrap_or_default(),
             report.degree,
             if report.closed { "closed" } else { "open" },
             report.control_points,

@@ -26,7 +26,7 @@ fn operator(degree: usize, parameters: &Parameters) -> Result<BandedCollocation,
 
 /// Smallest eigenvalue by inverse iteration to rounding level. The library's own search ends at
 /// 1e-3, which is enough for weights but not for tables.
-pub(super) fn smallest_eigenvalue(operator: &BandedCollocation) -> Result<f64, Error> {
+pub(super) fn smallest_eigenvalue(operator: &dyn CollocationMatrix) -> Result<f64, Error> {
     const MOST_STEPS: usize = 4000;
     let factors = operator.factor(None)?;
     // Close to the eigenvector: that of the largest frequency.

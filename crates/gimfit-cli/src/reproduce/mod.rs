@@ -1,5 +1,6 @@
 //! Published tables, recomputed and shown beside the paper.
 
+mod bases;
 mod functions2007;
 mod lin2004;
 mod measure;
@@ -22,7 +23,7 @@ struct Reproduction {
     recompute: fn() -> anyhow::Result<Table>,
 }
 
-const REPRODUCTIONS: [Reproduction; 5] = [
+const REPRODUCTIONS: [Reproduction; 6] = [
     Reproduction {
         name: "wang2007",
         line: "Wang, Li, Jiang and Li 2007, Table 1: closed quadratic curve, 15 passes",
@@ -47,6 +48,11 @@ const REPRODUCTIONS: [Reproduction; 5] = [
         name: "spectra",
         line: "Theory: smallest eigenvalues, weights, rates and poles for degrees 2 to 7",
         recompute: spectra::recompute,
+    },
+    Reproduction {
+        name: "bases",
+        line: "Other bases: smallest eigenvalues; Chen, Wang and Jin 2012, Table 1",
+        recompute: bases::recompute,
     },
 ];
 

@@ -1,7 +1,7 @@
 //! What can be typed after `gimfit surface`. Choices for the two directions are given as one, for
 //! both, or as two with a comma between: u (rows), then v (columns).
 
-use crate::arguments::{IterationArguments, KnotRule, WritingArguments};
+use crate::arguments::{BasisChoice, IterationArguments, KnotRule, WritingArguments};
 use clap::{Args, ValueEnum};
 use gimfit_io::grids::{GridFormatChoice, parse_shape};
 use gimfit_io::points::{ColumnChoice, DecimalMark, Delimiter, UnknownChoice};
@@ -53,9 +53,21 @@ pub(crate) struct SurfaceArguments {
     #[arg(long, value_name = "MARK", help_heading = "Reading")]
     pub(crate) decimal: Option<DecimalMark>,
 
-    /// Degree, or degrees in u and v
-    #[arg(long, default_value = "3", value_name = "P[,Q]", help_heading = "Surface")]
-    pub(crate) degree: Pair<usize>,
+    /// Degree, or degrees in u and v [default: 3; with other bases than b-spline one less than the
+    /// rows and columns]
+    #[arg(long, value_name = "P[,Q]", help_heading = "Surface")]
+    pub(crate) degree: Option<Pair<usize>>,
+
+    /// Basis, or bases in u and v: b-spline, bernstein, wang-ball (not totally positive), said-ball,
+    /// dp. All but b-spline take one function per row and column, up to 26, and uniform parameters
+    /// by default
+    #[arg(
+        long,
+        default_value = "b-spline",
+        value_name = "BASIS[,BASIS]",
+        help_heading = "Surface"
+    )]
+    pub(crate) basis: Pair<BasisChoice>,
 
     /// Direction in which the surface closes smoothly
     #[arg(
@@ -166,12 +178,22 @@ impl OneChoice for KnotRule {
     }
 }
 
+impl OneChoice for BasisChoice {
+    fn read(text: &str) -> Result<Self, String> {
+        read_choice(text, "basis", "bases")
+    }
+}
+
 fn read_rule<R: ValueEnum>(text: &str) -> Result<R, String> {
+    read_choice(text, "rule", "rules")
+}
+
+fn read_choice<R: ValueEnum>(text: &str, one: &str, several: &str) -> Result<R, String> {
     R::from_str(text, false).map_err(|_| {
         let known: Vec<String> = R::value_variants()
             .iter()
             .filter_map(|rule| rule.to_possible_value().map(|value| value.get_name().to_owned()))
             .collect();
-        format!("\"{text}\" is no rule; the rules are {}", known.join(", "))
+        format!("\"{text}\" is no {one}; the {several} are {}", known.join(", "))
     })
 }

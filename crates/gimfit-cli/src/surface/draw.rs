@@ -77,6 +77,10 @@ fn free_shape(surface: &Surface) -> [usize; 2] {
 /// The control points that are free, row by row.
 fn free_net(job: &Job<'_>) -> Vec<f64> {
     let surface = &job.fit.surface;
+    if let Some(blending) = &job.document.blending {
+        // Of the bases that were fitted, not of their Bezier form.
+        return blending.control_points.iter().flat_map(|row| row.values.clone()).collect();
+    }
     let [rows, columns] = free_shape(surface);
     (0..rows)
         .flat_map(|i| (0..columns).flat_map(move |j| surface.control_net().point(i, j)))

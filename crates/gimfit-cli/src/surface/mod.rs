@@ -9,21 +9,50 @@ mod save;
 pub(crate) use arguments::SurfaceArguments;
 
 use crate::Ending;
+use crate::basis::described;
 use crate::finish::{Finish, Run};
 use crate::outputs::Wanted;
 use crate::progress::Progress;
 use crate::signal::{self, Stage};
 use anyhow::{anyhow, ensure};
-use gimfit::{Error, GridView, fit_surface_observed};
-use gimfit_io::document::{Seconds, SurfaceDocument, surface_document_of};
+use gimfit::basis::BlendingBasis;
+use gimfit::fit::fit_blending_surface_observed;
+use gimfit::iteration::Observer;
+use gimfit::{
+    BlendingSurfaceOptions, Error, GridView, SurfaceFit, SurfaceOptions, fit_surface_observed,
+};
+use gimfit_io::document::{Seconds, SurfaceBlendingData, SurfaceDocument, surface_document_of};
 use gimfit_io::grids::PointGrid;
 use plan::Plan;
+use std::sync::Arc;
 use std::time::Instant;
+
+/// A fit over other bases, in Bezier form, with what a document tells of the bases.
+fn blended(
+    grid: GridView<'_>,
+    bases: &[Arc<dyn BlendingBasis>; 2],
+    options: &SurfaceOptions,
+    observer: &mut dyn Observer,
+) -> Result<(SurfaceFit, Option<SurfaceBlendingData>), Error> {
+    let options = BlendingSurfaceOptions {
+        parameterizations: options.parameterizations.clone(),
+        method: options.method,
+        weight: options.weight.clone(),
+        per_direction: options.per_direction,
+        iterations: options.iterations,
+        residual: options.residual,
+        keep: options.keep.clone(),
+    };
+    let fit = fit_blending_surface_observed(grid, bases.clone(), &options, observer)?;
+    Ok((fit.to_bezier()?, Some(SurfaceBlendingData::of(&fit.surface))))
+}
 
 /// A fit with everything that is told about it.
 struct Job<'a> {
     grid: &'a PointGrid,
-    fit: &'a gimfit::SurfaceFit,
+    fit: &'a SurfaceFit,
+    /// What was blended in u and v, in words, if no B-splines were.
+    bases: Option<[String; 2]>,
     /// Samples in place of control points.
     samples: Option<(usize, usize)>,
     document: SurfaceDocument,
@@ -42,7 +71,7 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
     );
     signal::listen()?;
     let clock = Instant::now();
-    let Plan { grid, options } = Plan::new(arguments)?;
+    let Plan { grid, options, bases } = Plan::new(arguments)?;
     let read = clock.elapsed().as_secs_f64();
 
     let unused = [&grid.row_abscissae, &grid.column_abscissae].map(Option::is_some) == [true; 2]
@@ -53,11 +82,14 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
     let mut progress = Progress::new(arguments.writing.quiet, options.iterations);
     signal::enter(Stage::Fitting);
     let clock = Instant::now();
-    let result = fit_surface_observed(view, &options, &mut progress);
+    let result = match &bases {
+        None => fit_surface_observed(view, &options, &mut progress).map(|fit| (fit, None)),
+        Some(bases) => blended(view, bases, &options, &mut progress),
+    };
     let fitted = clock.elapsed().as_secs_f64();
     signal::enter(Stage::Writing);
     progress.finish();
-    let mut fit = result.map_err(explain)?;
+    let (mut fit, blending) = result.map_err(explain)?;
     if unused {
         fit.report.run.choices.push(
             "parameters: those in the file are left aside; --parameters axes takes them".into(),
@@ -65,13 +97,20 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
     }
 
     let mut document = surface_document_of(&fit);
+    document.blending = blending;
     document.coordinate_names = Some(grid.column_names.clone());
     if let Some(report) = &mut document.report {
         report.source = Some(grid.source.clone());
         report.run.choices.splice(0..0, grid.notes.iter().map(|note| format!("reading: {note}")));
         report.run.seconds = Some(Seconds { read, fit: fitted, write: None });
     }
-    let mut job = Job { grid: &grid, fit: &fit, samples: arguments.samples, document };
+    let mut job = Job {
+        grid: &grid,
+        fit: &fit,
+        bases: bases.as_ref().map(|bases| bases.each_ref().map(|basis| described(&**basis))),
+        samples: arguments.samples,
+        document,
+    };
     let report = &fit.report;
     let finish = Finish {
         wanted: Wanted::new(&arguments.writing, arguments.samples.is_some()),

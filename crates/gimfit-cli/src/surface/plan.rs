@@ -1,22 +1,27 @@
 //! From arguments to a grid and options, with all that can be checked before the run.
 
-use super::arguments::{GridParameterRule, SurfaceArguments};
+use super::arguments::{ClosedChoice, GridParameterRule, SurfaceArguments};
 use crate::arguments::KnotRule;
+use crate::basis::{basis, only_b_splines};
 use crate::method::{ensure_kept_fits_fit, method, weight, weight_file};
-use anyhow::{Context, ensure};
+use anyhow::{Context, bail, ensure};
+use gimfit::basis::BlendingBasis;
 use gimfit::{KnotPlacement, Parameterization, SurfaceOptions};
 use gimfit_io::grids::{GridOptions, PointGrid, read_grid};
 use std::path::Path;
+use std::sync::Arc;
 
 /// What will be run.
 pub(super) struct Plan {
     pub(super) grid: PointGrid,
     pub(super) options: SurfaceOptions,
+    /// What is blended in u and v, if no B-splines are.
+    pub(super) bases: Option<[Arc<dyn BlendingBasis>; 2]>,
 }
 
 impl Plan {
     pub(super) fn new(arguments: &SurfaceArguments) -> anyhow::Result<Self> {
-        let method = method(arguments.iteration.method, arguments.iteration.bandwidth)?;
+        let method = method(&arguments.iteration)?;
         let weight = weight(&arguments.iteration.weight)?;
         ensure!(
             matches!(arguments.index_columns.len(), 0 | 2),
@@ -34,8 +39,9 @@ impl Plan {
         let parameterization = |k: usize| -> anyhow::Result<Option<Parameterization>> {
             arguments.parameters.map(|rules| parameterization(rules.0[k], k, &grid)).transpose()
         };
+        let bases = blending(arguments, &grid)?;
         let options = SurfaceOptions {
-            degrees: arguments.degree.0,
+            degrees: arguments.degree.map_or(SurfaceOptions::default().degrees, |pair| pair.0),
             closed: arguments.closed.each(),
             parameterizations: [parameterization(0)?, parameterization(1)?],
             knot_placements: [0, 1].map(|k| arguments.knots.map(|rules| placement(rules.0[k]))),
@@ -55,8 +61,32 @@ impl Plan {
                 ["u", "v"][k]
             );
         }
-        Ok(Self { grid, options })
+        Ok(Self { grid, options, bases })
     }
+}
+
+/// The bases that are no B-splines, with the options that would contradict them refused.
+fn blending(
+    arguments: &SurfaceArguments,
+    grid: &PointGrid,
+) -> anyhow::Result<Option<[Arc<dyn BlendingBasis>; 2]>> {
+    let [u, v] = arguments.basis.0;
+    let bases = [
+        basis(u, grid.rows, "rows of points", &grid.source)?,
+        basis(v, grid.columns, "columns of points", &grid.source)?,
+    ];
+    let bases = match bases {
+        [None, None] => return Ok(None),
+        [Some(u), Some(v)] => [u, v],
+        _ => bail!(
+            "--basis: b-spline in one direction and another basis in the other do not go together; \
+             name two of bernstein, wang-ball, said-ball and dp"
+        ),
+    };
+    only_b_splines("--degree", arguments.degree.is_some(), "the points give the degrees")?;
+    only_b_splines("--knots", arguments.knots.is_some(), "other bases have none")?;
+    only_b_splines("--closed", arguments.closed != ClosedChoice::None, "other bases are open")?;
+    Ok(Some(bases))
 }
 
 /// The files to read, by the argument that names them.

@@ -25,10 +25,15 @@ pub(super) fn report(job: &Job<'_>, written: &[String]) -> String {
         [false, true] => "closed in v",
         [true, true] => "closed in u and v",
     };
+    let bases = match &job.bases {
+        Some([u, v]) if u == v => format!("{u} of "),
+        Some([u, v]) => format!("{u} and {v} of "),
+        None => String::new(),
+    };
     lines.add(
         "surface",
         &format!(
-            "degrees {} and {}, {closed}, {} x {} control points",
+            "{bases}degrees {} and {}, {closed}, {} x {} control points",
             report.degrees[0],
             report.degrees[1],
             report.control_points[0],

@@ -3,12 +3,14 @@
 //!
 //! Numbers are written with as many digits as they need to come back bit by bit.
 
+mod blending;
 mod model;
 mod read;
 mod rows;
 mod run;
 mod surface;
 
+pub use blending::{BlendingData, SurfaceBlendingData};
 pub use model::{CurveGeometry, Document, Geometry, ReportData, SequenceFit};
 pub use read::{
     AnyDocument, DocumentError, is_document, parse_any_document, parse_document, read_document,

@@ -1,7 +1,7 @@
 //! The document as data.
 
-use super::PointRows;
 use super::run::{RunData, number_or_null};
+use super::{BlendingData, PointRows};
 use gimfit::{Curve, CurveReport, Error, KeptFit, KnotVector, Points};
 use serde::{Deserialize, Serialize};
 
@@ -15,6 +15,9 @@ pub struct Document {
     /// The curve.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub geometry: Option<Geometry>,
+    /// The basis that was fitted, where it is no B-spline; the geometry is its Bezier form.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub blending: Option<BlendingData>,
     /// Parameter of each data point fitted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub parameters: Option<Vec<f64>>,
@@ -38,6 +41,7 @@ impl Default for Document {
             format: "gimfit".into(),
             version: 1,
             geometry: None,
+            blending: None,
             parameters: None,
             kept_points: None,
             coordinate_names: None,

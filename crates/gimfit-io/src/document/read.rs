@@ -75,7 +75,10 @@ pub fn parse_document(bytes: &[u8], name: &str) -> Result<Document, DocumentErro
     let document: Document = parse(bytes, name)?;
     if let Some(Geometry::Curve(curve)) = &document.geometry {
         let geometry = |reason| DocumentError::Geometry { name: name.into(), reason };
-        curve.curve().map_err(geometry)?;
+        let points = curve.curve().map_err(geometry)?.control_points().len();
+        if let Some(blending) = &document.blending {
+            blending.check(points, curve.dimension).map_err(geometry)?;
+        }
         for fit in document.sequence.iter().flatten() {
             curve.curve_with(&fit.control_points).map_err(geometry)?;
         }
@@ -104,7 +107,10 @@ pub fn parse_any_document(bytes: &[u8], name: &str) -> Result<AnyDocument, Docum
     let document: SurfaceDocument = parse(bytes, name)?;
     if let Some(SurfaceKind::Surface(surface)) = &document.geometry {
         let geometry = |reason| DocumentError::Geometry { name: name.into(), reason };
-        surface.surface().map_err(geometry)?;
+        let points = surface.surface().map_err(geometry)?.control_net().points().len();
+        if let Some(blending) = &document.blending {
+            blending.check(points, surface.dimension).map_err(geometry)?;
+        }
         for fit in document.sequence.iter().flatten() {
             surface.surface_with(&fit.control_points).map_err(geometry)?;
         }

@@ -1,6 +1,6 @@
 //! Surfaces in documents.
 
-use super::{HistoryRow, PointRows, RunData};
+use super::{HistoryRow, PointRows, RunData, SurfaceBlendingData};
 use gimfit::{Error, KeptFit, KnotVector, PointGrid, Surface, SurfaceFit, SurfaceReport};
 use serde::{Deserialize, Serialize};
 
@@ -14,6 +14,9 @@ pub struct SurfaceDocument {
     /// The surface.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub geometry: Option<SurfaceKind>,
+    /// The bases that were fitted, where they are no B-splines; the geometry is their Bezier form.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub blending: Option<SurfaceBlendingData>,
     /// Parameters of the rows and of the columns of points fitted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub parameters: Option<[Vec<f64>; 2]>,
@@ -65,6 +68,7 @@ pub fn surface_document_of(fit: &SurfaceFit) -> SurfaceDocument {
         format: "gimfit".into(),
         version: 1,
         geometry: Some(SurfaceKind::Surface(SurfaceGeometry::of(&fit.surface))),
+        blending: None,
         parameters: Some(fit.parameters.clone()),
         coordinate_names: None,
         report: Some(SurfaceReportData::of(&fit.report)),

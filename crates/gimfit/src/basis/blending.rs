@@ -96,7 +96,7 @@ macro_rules! forward {
         }
     )*};
 }
-forward!(Arc<B>, &B);
+forward!(Arc<B>, Box<B>, &B);
 
 /// Refuses degrees that the named bases do not have.
 pub(super) fn check_blending_degree(degree: usize) -> Result<(), Error> {

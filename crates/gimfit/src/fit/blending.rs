@@ -165,7 +165,7 @@ pub fn fit_blending_curve_observed<'a>(
         dimension,
         closed: false,
         parameterization: parameterization_name(&chosen),
-        knot_placement: "none",
+        knot_placement: "bezier",
         spacing_ratio: spacing_ratio(&values, None),
         run: solved.run,
         max_residual_index: norms.max_index,

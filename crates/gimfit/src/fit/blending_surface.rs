@@ -162,7 +162,7 @@ pub fn fit_blending_surface_observed(
         dimension,
         closed: [false, false],
         parameterizations: [u.parameterization, v.parameterization],
-        knot_placements: ["none", "none"],
+        knot_placements: ["bezier", "bezier"],
         spacing_ratios: [spacing_ratio(&t_u, None), spacing_ratio(&t_v, None)],
         per_direction: options.per_direction,
         run: solved.run,

@@ -70,9 +70,15 @@ pub(super) fn choose<'a>(
             let length = operator.points() * dimension;
             ("chebyshev", Box::new(Chebyshev::new(least, 1.0, length)))
         }
-        Method::Anderson { memory } => {
-            ("anderson", Box::new(anderson(memory, operator.points(), dimension, &mut choices)?))
-        }
+        Method::Anderson { memory } => (
+            "anderson",
+            Box::new(anderson(
+                memory,
+                (operator.points(), operator.is_dense()),
+                dimension,
+                &mut choices,
+            )?),
+        ),
         Method::Preconditioned { half_bandwidth } => {
             ("preconditioned", Box::new(Preconditioned::new(operator, half_bandwidth)?))
         }
@@ -113,12 +119,12 @@ pub(super) fn whole(operator: &dyn CollocationMatrix, place: &str) -> String {
 /// Anderson acceleration of PIA on so many points.
 pub(super) fn anderson(
     memory: Option<usize>,
-    points: usize,
+    (points, dense): (usize, bool),
     dimension: usize,
     choices: &mut Vec<String>,
 ) -> Result<Anderson, Error> {
     let steps = memory.unwrap_or_else(|| {
-        let steps = Anderson::default_memory(points);
+        let steps = Anderson::default_memory(points, dense);
         choices.push(format!("memory: {steps} steps"));
         steps
     });

@@ -26,7 +26,8 @@ pub enum Method {
     Chebyshev,
     /// Anderson-accelerated PIA (Anderson 1965).
     Anderson {
-        /// Steps remembered, from 1; `None`: 10, or the number of points if that is less.
+        /// Steps remembered, from 1; `None`: 10, or the number of points if that is less; on dense
+        /// matrices 40, or twice the number of points.
         memory: Option<usize>,
     },
     /// Preconditioned PIA (Liu and Liu 2020) with a half bandwidth, or the whole band.

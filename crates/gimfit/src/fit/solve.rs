@@ -132,7 +132,7 @@ pub(super) fn solve(
     if swing > WILD_SWING && reached_rounding > WILD_SWING * size.rounding_level() {
         choices.push(format!(
             "caution: control points reach {swing:.0e} times the extent of the data; this \
-             interpolant swings wildly between points spaced so unevenly: lower the degree, or use \
+             interpolant swings wildly between its points: lower the degree, or use \
              centripetal parameters"
         ));
     }

@@ -76,9 +76,15 @@ pub(super) fn choose_both<'a>(
             choices.push(format!("interval of eigenvalues: [{least:.4e}, 1]"));
             ("chebyshev", Box::new(Chebyshev::new(least, 1.0, directions.points() * dimension)))
         }
-        Method::Anderson { memory } => {
-            ("anderson", Box::new(anderson(memory, directions.points(), dimension, &mut choices)?))
-        }
+        Method::Anderson { memory } => (
+            "anderson",
+            Box::new(anderson(
+                memory,
+                (directions.points(), u.is_dense()),
+                dimension,
+                &mut choices,
+            )?),
+        ),
         Method::Preconditioned { half_bandwidth } => {
             ("preconditioned", Box::new(banded(half_bandwidth)?))
         }

@@ -58,10 +58,12 @@ impl Anderson {
         }
     }
 
-    /// The memory for a number of points where none is asked for: 10, the number of points if less.
+    /// The memory for a number of points where none is asked for: 10, or the number of points if
+    /// less. On a dense matrix 40, or twice the number of points: more than it has eigenvalues, so
+    /// that rounding in the first steps can be made up for.
     #[must_use]
-    pub fn default_memory(points: usize) -> usize {
-        points.min(10)
+    pub fn default_memory(points: usize, dense: bool) -> usize {
+        if dense { points.saturating_mul(2).min(40) } else { points.min(10) }
     }
 
     fn forget(&mut self) {

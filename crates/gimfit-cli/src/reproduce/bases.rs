@@ -1,0 +1,97 @@
+//! Smallest eigenvalues of bases that are no B-splines, at equal steps from end to end: how slow
+//! PIA is on each. The Bernstein basis has the largest of all normalised totally positive bases of
+//! its space (Delgado and Pena 2007), in closed form; the others were recomputed independently of
+//! this library. And the one table of a basis that is not totally positive.
+
+use super::measure::smallest_eigenvalue;
+use super::table::{Entry, Part, Source, Table};
+use gimfit::basis::{Bernstein, BlendingBasis, Dp, SaidBall, WangBall};
+use gimfit::collocation::DenseCollocation;
+use gimfit::parameters::Parameters;
+use gimfit::{BlendingOptions, Error, Method, fit_blending_curve};
+use std::sync::Arc;
+
+/// A name, values, and how to make the basis of a degree.
+type Row =
+    (&'static str, [(&'static str, usize); 5], fn(usize) -> Result<Box<dyn BlendingBasis>, Error>);
+
+const DEGREES: [usize; 5] = [3, 4, 5, 8, 10];
+
+/// Values and the significant digits they are known to, for each of the degrees.
+const SAID_BALL: [(&str, usize); 5] =
+    [("0.1481", 4), ("0.0818", 3), ("0.0197", 3), ("1.43e-3", 3), ("1.80e-4", 3)];
+const WANG_BALL: [(&str, usize); 5] =
+    [("0.1481", 4), ("0.0545", 3), ("0.0131", 3), ("3.15e-4", 3), ("2.11e-5", 3)];
+const DP: [(&str, usize); 5] =
+    [("0.0741", 3), ("0.0208", 3), ("2.93e-3", 3), ("1.95e-5", 3), ("5.2e-7", 2)];
+
+pub(super) fn recompute() -> anyhow::Result<Table> {
+    let mut bernstein = Vec::new();
+    for degree in DEGREES {
+        let law: f64 = (1..=degree).map(|k| k as f64 / degree as f64).product();
+        let found = of(&Bernstein::new(degree)?)?;
+        let reference = (format!("{degree}!/{degree}^{degree} = {law:.6e}"), law);
+        bernstein.push(Entry::known(format!("n={degree}"), reference, 1e-9, found));
+    }
+    let mut parts = vec![Part::Entries {
+        heading: "Bernstein basis of degree n: lambda_min at i/n".into(),
+        source: Source::Theory,
+        entries: bernstein,
+    }];
+    let others: [Row; 3] = [
+        ("Said-Ball basis", SAID_BALL, |n| Ok(Box::new(SaidBall::new(n)?))),
+        ("Wang-Ball basis, which is not totally positive", WANG_BALL, |n| {
+            Ok(Box::new(WangBall::new(n)?))
+        }),
+        ("DP basis of Delgado and Pena", DP, |n| Ok(Box::new(Dp::new(n)?))),
+    ];
+    for (name, references, make) in others {
+        let mut entries = Vec::new();
+        for (degree, (printed, digits)) in DEGREES.into_iter().zip(references) {
+            let found = of(&make(degree)?)?;
+            entries.push(Entry::printed(format!("n={degree}"), printed, digits, found, 0.0));
+        }
+        let heading = format!("{name}: lambda_min at i/n");
+        parts.push(Part::Entries { heading, source: Source::Independent, entries });
+    }
+    parts.push(half_circle()?);
+    Ok(Table { title: "bases beyond B-splines", parts })
+}
+
+/// Steps and printed largest residuals of Chen, Wang and Jin (2012), Table 1: PIA of a quartic
+/// Wang-Ball curve through five points of a half circle at equal steps.
+const HALF_CIRCLE: [(usize, &str); 5] =
+    [(0, "5.732e-1"), (1, "3.297e-1"), (5, "3.992e-2"), (10, "9.603e-3"), (20, "2.521e-3")];
+
+fn half_circle() -> anyhow::Result<Part> {
+    let points: Vec<[f64; 2]> = (0..5)
+        .map(|i| f64::from(i) * std::f64::consts::FRAC_PI_4)
+        .map(|s| [s.cos(), s.sin()])
+        .collect();
+    let options = BlendingOptions {
+        method: Method::Pia,
+        iterations: 20,
+        residual: Some(0.0),
+        ..Default::default()
+    };
+    let fit = fit_blending_curve(&points, Arc::new(WangBall::new(4)?), &options)?;
+    let entries = HALF_CIRCLE
+        .into_iter()
+        .map(|(step, printed)| {
+            let found = fit.report.run.history[step].max_residual;
+            let reason = (step >= 10).then_some("0.5% off; the first entries agree to all digits");
+            Entry::printed(format!("k={step}"), printed, 4, found, 1.0).misprint(reason)
+        })
+        .collect();
+    Ok(Part::Entries {
+        heading: "Chen, Wang and Jin 2012, Table 1: half circle, quartic Wang-Ball, PIA".into(),
+        source: Source::Paper,
+        entries,
+    })
+}
+
+fn of(basis: &dyn BlendingBasis) -> anyhow::Result<f64> {
+    let last = basis.functions() - 1;
+    let steps = Parameters::open((0..=last).map(|j| j as f64 / last as f64).collect())?;
+    Ok(smallest_eigenvalue(&DenseCollocation::new(basis, &steps)?)?)
+}
