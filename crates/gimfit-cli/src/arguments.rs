@@ -26,6 +26,8 @@ pub(crate) enum Command {
     Curve(Box<CurveArguments>),
     /// Fit a surface through the points of a grid
     Surface(Box<SurfaceArguments>),
+    /// Tell how a fit would go, before any run: spectrum, steps of each method, what is to blame
+    Diagnose(Box<DiagnoseArguments>),
     /// Sample a fitted curve
     Evaluate(EvaluateArguments),
     /// Tell what a file holds
@@ -91,6 +93,23 @@ pub(crate) struct CurveArguments {
     #[command(flatten)]
     pub(crate) input: InputArguments,
 
+    #[command(flatten)]
+    pub(crate) shape: ShapeArguments,
+
+    #[command(flatten)]
+    pub(crate) iteration: IterationArguments,
+
+    #[command(flatten)]
+    pub(crate) writing: WritingArguments,
+
+    /// Samples written to .csv files instead of control points
+    #[arg(long, value_name = "N", value_parser = values::samples, help_heading = "Writing")]
+    pub(crate) samples: Option<usize>,
+}
+
+/// What decides the collocation matrix of a curve: the same for a fit and a diagnosis.
+#[derive(Debug, Args)]
+pub(crate) struct ShapeArguments {
     /// Degree of the curve [default: 3; with another basis than b-spline one less than the points]
     #[arg(long, value_name = "P", help_heading = "Curve")]
     pub(crate) degree: Option<usize>,
@@ -145,16 +164,6 @@ pub(crate) struct CurveArguments {
     /// Sort the points by their abscissa first
     #[arg(long, requires = "abscissa", help_heading = "Curve")]
     pub(crate) sort: bool,
-
-    #[command(flatten)]
-    pub(crate) iteration: IterationArguments,
-
-    #[command(flatten)]
-    pub(crate) writing: WritingArguments,
-
-    /// Samples written to .csv files instead of control points
-    #[arg(long, value_name = "N", value_parser = values::samples, help_heading = "Writing")]
-    pub(crate) samples: Option<usize>,
 }
 
 /// The rule that runs and when it stops, for curves and surfaces.
@@ -171,11 +180,12 @@ pub(crate) struct IterationArguments {
     pub(crate) method: MethodChoice,
 
     /// Weight for weighted and sor: auto (the best one), a number between 0 and 2, or for weighted
-    /// a file of one number per point, of a grid row by row
+    /// lemma2 (converges where eigenvalues are complex) or a file of one number per point, of a grid
+    /// row by row
     #[arg(
         long,
         default_value = "auto",
-        value_name = "W|auto|FILE",
+        value_name = "W|auto|lemma2|FILE",
         allow_negative_numbers = true,
         help_heading = "Iteration"
     )]
@@ -233,6 +243,36 @@ pub(crate) struct WritingArguments {
     /// With --json: print geometry, parameters and kept fits too
     #[arg(long, requires = "json", help_heading = "Writing")]
     pub(crate) geometry: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Exit status: 0 done; 2 wrong usage or input; 130 interrupted.
+
+Examples:
+  gimfit diagnose airfoil.dat
+  gimfit diagnose track.gpx --columns east,north --degree 5 --tolerance 0.01
+  gimfit diagnose coast.csv --closed --json")]
+pub(crate) struct DiagnoseArguments {
+    #[command(flatten)]
+    pub(crate) input: InputArguments,
+
+    #[command(flatten)]
+    pub(crate) shape: ShapeArguments,
+
+    /// Residual to which steps are predicted, in the unit of the points [default: 1e-12 of the
+    /// extent, or what rounding allows]
+    #[arg(
+        long,
+        value_name = "T",
+        value_parser = values::number,
+        allow_negative_numbers = true,
+        help_heading = "Diagnosis"
+    )]
+    pub(crate) tolerance: Option<f64>,
+
+    /// Print as JSON, with all eigenvalues where there are few
+    #[arg(long, help_heading = "Diagnosis")]
+    pub(crate) json: bool,
 }
 
 /// A named rule, or a file that gives the numbers.

@@ -4,6 +4,7 @@ mod arguments;
 mod basis;
 mod complete;
 mod curve;
+mod diagnose;
 mod evaluate;
 mod explain;
 mod finish;
@@ -38,6 +39,7 @@ fn main() -> ExitCode {
     let result = match arguments.command {
         Command::Curve(arguments) => curve::run(&arguments),
         Command::Surface(arguments) => surface::run(&arguments),
+        Command::Diagnose(arguments) => diagnose::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Reproduce(arguments) => reproduce::run(&arguments),

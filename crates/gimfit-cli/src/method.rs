@@ -30,13 +30,15 @@ pub(crate) fn method(arguments: &IterationArguments) -> anyhow::Result<Method> {
     })
 }
 
-/// The weight of `--weight`: auto, a number, or a file.
+/// The weight of `--weight`: auto, lemma2, a number, or a file.
 pub(crate) fn weight(text: &str) -> anyhow::Result<IterationWeight> {
-    if text == "auto" {
-        return Ok(IterationWeight::Auto);
+    match text {
+        "auto" => return Ok(IterationWeight::Auto),
+        "lemma2" => return Ok(IterationWeight::Lemma2),
+        _ => {}
     }
     if let Some(path) = weight_file(text) {
-        let words = ["auto".into(), "a number".into()];
+        let words = ["auto".into(), "lemma2".into(), "a number".into()];
         return Ok(IterationWeight::PerPoint(input::numbers(path, "--weight", &words)?));
     }
     let omega = values::number(text).map_err(|error| anyhow!("--weight {text}: {error}"))?;
@@ -45,7 +47,7 @@ pub(crate) fn weight(text: &str) -> anyhow::Result<IterationWeight> {
 
 /// The file of weights that `--weight` names, if it is none of its words.
 pub(crate) fn weight_file(text: &str) -> Option<&Path> {
-    (text != "auto" && text.parse::<f64>().is_err()).then(|| Path::new(text))
+    (!matches!(text, "auto" | "lemma2") && text.parse::<f64>().is_err()).then(|| Path::new(text))
 }
 
 /// Most numbers in kept fits: 8 GB.

@@ -25,6 +25,7 @@
 //! * [`collocation`]: rows of few weights, built once and applied many times; their spectrum
 //! * [`projection`]: foot points
 //! * [`iteration`]: the one loop and the rules that run through it
+//! * [`diagnosis`]: what can be told before a run
 //! * [`report`]: what happened
 //! * [`fit`]: the recipes
 //!
@@ -48,15 +49,18 @@ pub mod projection;
 
 pub mod iteration;
 
+pub mod diagnosis;
+
 pub mod report;
 
 pub mod fit;
 
 pub use error::Error;
 pub use fit::{
-    BlendingCurveFit, BlendingOptions, BlendingSurfaceFit, BlendingSurfaceOptions, CurveFit,
-    CurveOptions, IterationWeight, KeptFit, Method, SurfaceFit, SurfaceOptions, fit_blending_curve,
-    fit_blending_surface, fit_curve, fit_curve_observed, fit_surface, fit_surface_observed,
+    BlendingCurveFit, BlendingOptions, BlendingSurfaceFit, BlendingSurfaceOptions, CurveDiagnosis,
+    CurveFit, CurveOptions, IterationWeight, KeptFit, Method, SurfaceFit, SurfaceOptions,
+    diagnose_blending_curve, diagnose_curve, fit_blending_curve, fit_blending_surface, fit_curve,
+    fit_curve_observed, fit_surface, fit_surface_observed,
 };
 pub use geometry::{BlendingCurve, BlendingSurface, Curve, Surface};
 pub use iteration::{HistoryEntry, Termination};

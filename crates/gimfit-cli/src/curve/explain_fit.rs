@@ -1,16 +1,17 @@
 //! Errors of a fit in the words of the command line: rows by their line, options by name.
 
-use crate::arguments::{CurveArguments, RuleOrFile};
+use crate::arguments::{InputArguments, RuleOrFile, ShapeArguments};
 use crate::explain::explain;
 use anyhow::anyhow;
 use gimfit::Error;
 use gimfit_io::points::{PointTable, input_name};
 
 /// Rewrites an error that names points so that it names the file and its rows.
-pub(super) fn explain_fit(
+pub(crate) fn explain_fit(
     error: Error,
     table: &PointTable,
-    arguments: &CurveArguments,
+    input: &InputArguments,
+    shape: &ShapeArguments,
 ) -> anyhow::Error {
     // Given parameters may be one more than the points.
     let row = |index: usize| {
@@ -24,8 +25,8 @@ pub(super) fn explain_fit(
                 1 => " (and one more repetition)".into(),
                 _ => format!(" (and {others} more repetitions)"),
             };
-            let what = match &arguments.parameters {
-                _ if arguments.input.abscissa.is_some() => "the abscissa of ",
+            let what = match &shape.parameters {
+                _ if input.abscissa.is_some() => "the abscissa of ",
                 Some(RuleOrFile::File(_)) => "the parameter of ",
                 _ => "",
             };
@@ -44,7 +45,7 @@ pub(super) fn explain_fit(
             row(second)
         ),
         Error::ParametersNotIncreasing { index, value, previous } => {
-            if let Some(RuleOrFile::File(path)) = &arguments.parameters {
+            if let Some(RuleOrFile::File(path)) = &shape.parameters {
                 return anyhow!(
                     "{}: number {} is {value} and does not exceed {previous} before it; \
                      parameters must increase (it belongs to {} of {source})",
@@ -53,8 +54,7 @@ pub(super) fn explain_fit(
                     row(index)
                 );
             }
-            let hint =
-                if arguments.input.abscissa.is_some() { "; --sort sorts the rows" } else { "" };
+            let hint = if input.abscissa.is_some() { "; --sort sorts the rows" } else { "" };
             anyhow!(
                 "{source}: the parameter {value} of {} is less than {previous} before it; \
                  parameters must increase{hint}",

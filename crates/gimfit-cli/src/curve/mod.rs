@@ -15,7 +15,7 @@ use crate::outputs::Wanted;
 use crate::progress::Progress;
 use crate::signal::{self, Stage};
 use anyhow::ensure;
-use explain_fit::explain_fit;
+pub(crate) use explain_fit::explain_fit;
 use gimfit::basis::BlendingBasis;
 use gimfit::fit::fit_blending_curve_observed;
 use gimfit::iteration::Observer;
@@ -23,6 +23,7 @@ use gimfit::{BlendingOptions, CurveFit, CurveOptions, Error, PointsView, fit_cur
 use gimfit_io::document::{BlendingData, Document, Seconds, document_of};
 use gimfit_io::points::PointTable;
 use plan::Plan;
+pub(crate) use plan::{Shape, shape};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -77,7 +78,8 @@ pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
     let fitted = clock.elapsed().as_secs_f64();
     signal::enter(Stage::Writing);
     progress.finish();
-    let (fit, blending) = result.map_err(|error| explain_fit(error, &table, arguments))?;
+    let (fit, blending) =
+        result.map_err(|error| explain_fit(error, &table, &arguments.input, &arguments.shape))?;
 
     let mut document = document_of(&fit);
     document.blending = blending;

@@ -1,6 +1,9 @@
 //! From arguments to points and options, with all that can be checked before the run.
 
-use crate::arguments::{CurveArguments, DuplicatesChoice, KnotRule, ParameterRule, RuleOrFile};
+use crate::arguments::{
+    CurveArguments, DuplicatesChoice, InputArguments, KnotRule, ParameterRule, RuleOrFile,
+    ShapeArguments,
+};
 use crate::basis::{basis, only_b_splines};
 use crate::input;
 use crate::method::{ensure_kept_fits_fit, method, weight, weight_file};
@@ -21,13 +24,9 @@ pub(super) struct Plan {
 
 impl Plan {
     pub(super) fn new(arguments: &CurveArguments) -> anyhow::Result<Self> {
-        ensure!(
-            !(arguments.input.abscissa.is_some() && arguments.parameters.is_some()),
-            "--abscissa and --parameters both give the parameters; use one of them"
-        );
         let method = method(&arguments.iteration)?;
         let weight = weight(&arguments.iteration.weight)?;
-        let mut table = input::points(&arguments.input)?;
+        let Shape { table, options, basis } = shape(&arguments.input, &arguments.shape)?;
         let numbers = table.coordinates.len();
         ensure_kept_fits_fit(
             &arguments.iteration.keep,
@@ -35,39 +34,61 @@ impl Plan {
             numbers,
             &table.source,
         )?;
-        if arguments.sort {
-            table.sort_by_abscissa();
-        }
-        let basis = blending(arguments, &table)?;
         let options = CurveOptions {
-            degree: arguments.degree.unwrap_or(CurveOptions::default().degree),
-            closed: arguments.closed,
-            parameterization: parameterization(arguments, &mut table)?,
-            knot_placement: arguments.knots.as_ref().map(knot_placement).transpose()?,
             method,
             weight,
             iterations: arguments.iteration.iterations,
             residual: arguments.iteration.residual,
-            duplicates: arguments.duplicates.into(),
             keep: arguments.iteration.keep.clone(),
+            ..options
         };
         Ok(Self { table, options, basis })
     }
 }
 
+/// Points, with what decides where they sit.
+pub(crate) struct Shape {
+    pub(crate) table: PointTable,
+    pub(crate) options: CurveOptions,
+    /// What is blended, if no B-splines are.
+    pub(crate) basis: Option<Arc<dyn BlendingBasis>>,
+}
+
+/// Reads points, with the options that decide where they sit.
+pub(crate) fn shape(input: &InputArguments, shape: &ShapeArguments) -> anyhow::Result<Shape> {
+    ensure!(
+        !(input.abscissa.is_some() && shape.parameters.is_some()),
+        "--abscissa and --parameters both give the parameters; use one of them"
+    );
+    let mut table = input::points(input)?;
+    if shape.sort {
+        table.sort_by_abscissa();
+    }
+    let basis = blending(shape, &table)?;
+    let options = CurveOptions {
+        degree: shape.degree.unwrap_or(CurveOptions::default().degree),
+        closed: shape.closed,
+        parameterization: parameterization(shape, &mut table)?,
+        knot_placement: shape.knots.as_ref().map(knot_placement).transpose()?,
+        duplicates: shape.duplicates.into(),
+        ..CurveOptions::default()
+    };
+    Ok(Shape { table, options, basis })
+}
+
 /// The basis that is no B-spline, with the options that would contradict it refused.
 fn blending(
-    arguments: &CurveArguments,
+    shape: &ShapeArguments,
     table: &PointTable,
 ) -> anyhow::Result<Option<Arc<dyn BlendingBasis>>> {
-    let basis = basis(arguments.basis, table.rows(), "points", &table.source)?;
+    let basis = basis(shape.basis, table.rows(), "points", &table.source)?;
     if basis.is_some() {
-        only_b_splines("--degree", arguments.degree.is_some(), "the points give the degree")?;
-        only_b_splines("--knots", arguments.knots.is_some(), "other bases have none")?;
-        only_b_splines("--closed", arguments.closed, "other bases are open")?;
+        only_b_splines("--degree", shape.degree.is_some(), "the points give the degree")?;
+        only_b_splines("--knots", shape.knots.is_some(), "other bases have none")?;
+        only_b_splines("--closed", shape.closed, "other bases are open")?;
         only_b_splines(
             "--duplicates",
-            arguments.duplicates != DuplicatesChoice::Error,
+            shape.duplicates != DuplicatesChoice::Error,
             "with uniform parameters repeated points are fitted as they are",
         )?;
     }
@@ -77,10 +98,10 @@ fn blending(
 /// The files to read, by the argument that names them.
 pub(super) fn inputs(arguments: &CurveArguments) -> Vec<(&str, &Path)> {
     let mut inputs = vec![("POINTS", arguments.input.points.as_path())];
-    if let Some(RuleOrFile::File(path)) = &arguments.parameters {
+    if let Some(RuleOrFile::File(path)) = &arguments.shape.parameters {
         inputs.push(("--parameters", path));
     }
-    if let Some(RuleOrFile::File(path)) = &arguments.knots {
+    if let Some(RuleOrFile::File(path)) = &arguments.shape.knots {
         inputs.push(("--knots", path));
     }
     if let Some(path) = weight_file(&arguments.iteration.weight) {
@@ -90,17 +111,17 @@ pub(super) fn inputs(arguments: &CurveArguments) -> Vec<(&str, &Path)> {
 }
 
 fn parameterization(
-    arguments: &CurveArguments,
+    shape: &ShapeArguments,
     table: &mut PointTable,
 ) -> anyhow::Result<Option<Parameterization>> {
-    let mut values = match (&arguments.parameters, table.abscissa.take()) {
+    let mut values = match (&shape.parameters, table.abscissa.take()) {
         (_, Some(abscissa)) => abscissa,
         (Some(RuleOrFile::File(path)), None) => {
             input::numbers(path, "--parameters", &RuleOrFile::<ParameterRule>::names())?
         }
         (Some(RuleOrFile::Rule(rule)), None) => {
             ensure!(
-                arguments.period.is_none(),
+                shape.period.is_none(),
                 "--period goes with --abscissa or with parameters from a file"
             );
             return Ok(Some(match rule {
@@ -112,13 +133,13 @@ fn parameterization(
         }
         (None, None) => {
             ensure!(
-                arguments.period.is_none(),
+                shape.period.is_none(),
                 "--period goes with --abscissa or with parameters from a file"
             );
             return Ok(None);
         }
     };
-    if let Some(period) = arguments.period {
+    if let Some(period) = shape.period {
         let Some(&first) = values.first() else { bail!("there are no parameters") };
         let closing = first + period;
         let beyond = values.last().is_some_and(|&last| last < closing);
@@ -129,7 +150,7 @@ fn parameterization(
             values[values.len() - 1]
         );
         values.push(closing);
-    } else if arguments.closed && values.len() == table.rows() {
+    } else if shape.closed && values.len() == table.rows() {
         let dimension = table.dimension();
         let last = table.coordinates.len().saturating_sub(dimension);
         ensure!(

@@ -105,6 +105,17 @@ impl CollocationMatrix for BandedCollocation {
         }
     }
 
+    fn factor_comparison(&self) -> Result<Factorization, Error> {
+        let mut comparison = self.clone();
+        let rows = self.first.iter().zip(comparison.weights.chunks_exact_mut(self.width));
+        for (j, (&first, weights)) in rows.enumerate() {
+            weights.iter_mut().for_each(|x| *x = -x.abs());
+            let diagonal = (j as i32 - first) as usize;
+            weights[diagonal] = -weights[diagonal];
+        }
+        Factorization::of_band(&comparison)
+    }
+
     fn is_totally_positive(&self) -> bool {
         // Rows of B-splines at ascending parameters; a row that wraps round spoils it.
         let columns = self.first.len();

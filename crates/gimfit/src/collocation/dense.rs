@@ -61,6 +61,37 @@ impl DenseCollocation {
         })
     }
 
+    /// The square matrix of `count` rows and columns of another from `start` on, past the last row
+    /// round to the first.
+    pub(crate) fn window(
+        matrix: &dyn CollocationMatrix,
+        start: usize,
+        count: usize,
+    ) -> Result<Self, Error> {
+        let points = matrix.points();
+        let mut entries = room(count)?;
+        for (i, row) in entries.chunks_exact_mut(count).enumerate() {
+            matrix.visit_row((start + i) % points, &mut |column, weight| {
+                let place = (column + points - start) % points;
+                if place < count {
+                    row[place] += weight;
+                }
+            });
+        }
+        Ok(Self {
+            name: "a part of the matrix".into(),
+            count,
+            matrix: entries,
+            totally_positive: matrix.is_totally_positive() && start + count <= points,
+            smallest_eigenvalue: None,
+        })
+    }
+
+    /// All entries, row by row.
+    pub(crate) fn entries(&self) -> &[f64] {
+        &self.matrix
+    }
+
     /// Row `j`.
     #[must_use]
     pub fn row(&self, j: usize) -> &[f64] {
@@ -201,6 +232,16 @@ impl CollocationMatrix for DenseCollocation {
 
     fn is_dense(&self) -> bool {
         true
+    }
+
+    fn factor_comparison(&self) -> Result<Factorization, Error> {
+        let mut matrix = self.matrix.clone();
+        for (j, row) in matrix.chunks_exact_mut(self.count).enumerate() {
+            row.iter_mut().for_each(|x| *x = -x.abs());
+            row[j] = -row[j];
+        }
+        Factorization::of_dense(self.count, matrix)
+            .ok_or_else(|| Error::SingularBasis { basis: self.name.clone(), points: self.count })
     }
 
     fn is_totally_positive(&self) -> bool {

@@ -21,7 +21,8 @@ pub use factor::Factorization;
 pub use grid::{AcrossCollocation, AlongCollocation, TensorCollocation};
 pub use layout::{ControlLayout, NetLayout};
 pub use spectrum::{
-    EigenvalueBounds, gauss_seidel_rate, smallest_eigenvalue, smallest_eigenvalue_of,
+    Eigenvalue, EigenvalueBounds, all_eigenvalues, best_weight, eigenvalues, gauss_seidel_rate,
+    lemma2_weight, rate_with_weight, smallest_eigenvalue, smallest_eigenvalue_of,
 };
 
 /// What an iteration needs of `A = [B_i(t_j)]`, whatever the geometry behind it. Vectors are flat
@@ -73,6 +74,14 @@ pub trait CollocationMatrix: CollocationOperator {
     /// # Errors
     /// [`Error::Singular`](crate::Error::Singular) if that is singular in doubles.
     fn factor(&self, half_bandwidth: Option<usize>) -> Result<Factorization, crate::Error>;
+
+    /// Factors the comparison matrix, with the absolute values of the entries, negative off the
+    /// diagonal: it tells whether the matrix is generalised diagonally dominant.
+    ///
+    /// # Errors
+    /// As [`CollocationMatrix::factor`]. The comparison matrix may be singular though the matrix is
+    /// not.
+    fn factor_comparison(&self) -> Result<Factorization, crate::Error>;
 
     /// Whether every minor is known to be nonnegative: then the eigenvalues lie in (0, 1] and PIA
     /// converges (Lin, Bao and Wang 2005).

@@ -96,27 +96,13 @@ pub fn fit_blending_curve_observed<'a>(
     observer: &mut dyn Observer,
 ) -> Result<BlendingCurveFit, Error> {
     let points = points.into();
-    let needed = basis.functions();
-    if points.is_empty() {
-        return Err(Error::NoPoints { needed });
-    }
-    check_function_count(&*basis, points.len())?;
-    let size = Size::of(Extent::of(points)?);
-    check_extent(&size.extent)?;
+    let size = measure(points, &*basis)?;
     let dimension = points.dimension();
     let data = size.scale.apply(points.coordinates());
     let view = PointsView::new(dimension, &data)?;
     let mut choices = Vec::new();
-    let chosen = options.parameterization.clone().unwrap_or_else(|| {
-        choices.push("parameters: uniform, as is usual for this kind of basis".into());
-        Parameterization::Uniform
-    });
-    if size.extent.diagonal() == 0.0 && points.len() > 1 && chosen.needs_distinct_points() {
-        return Err(Error::AllPointsEqual { points: points.len() });
-    }
-    let parameters = assign_parameters(view, false, &chosen)?;
-    let parameters = onto_domain(parameters, &*basis, &chosen, "", &mut choices)?;
-    let operator = DenseCollocation::new(&*basis, &parameters)?;
+    let Collocated { operator, parameters, parameterization: chosen } =
+        collocate(view, &size, &*basis, options.parameterization.as_ref(), &mut choices)?;
     cautions(&operator, &*basis, options.method, "", &mut choices);
 
     let gradual = options.keep.iter().copied().max().unwrap_or(0).min(options.iterations);
@@ -179,6 +165,46 @@ pub fn fit_blending_curve_observed<'a>(
         report,
         sequence: solved.sequence,
     })
+}
+
+/// Checks the points, and tells how large they are.
+pub(super) fn measure(points: PointsView<'_>, basis: &dyn BlendingBasis) -> Result<Size, Error> {
+    if points.is_empty() {
+        return Err(Error::NoPoints { needed: basis.functions() });
+    }
+    check_function_count(basis, points.len())?;
+    let size = Size::of(Extent::of(points)?);
+    check_extent(&size.extent)?;
+    Ok(size)
+}
+
+/// The matrix of a basis, and where it comes from.
+pub(super) struct Collocated {
+    pub(super) operator: DenseCollocation,
+    pub(super) parameters: Parameters,
+    pub(super) parameterization: Parameterization,
+}
+
+/// Assigns parameters to scaled points, and collocates.
+pub(super) fn collocate(
+    points: PointsView<'_>,
+    size: &Size,
+    basis: &dyn BlendingBasis,
+    parameterization: Option<&Parameterization>,
+    choices: &mut Vec<String>,
+) -> Result<Collocated, Error> {
+    let parameterization = parameterization.cloned().unwrap_or_else(|| {
+        choices.push("parameters: uniform, as is usual for this kind of basis".into());
+        Parameterization::Uniform
+    });
+    let equal = size.extent.diagonal() == 0.0 && points.len() > 1;
+    if equal && parameterization.needs_distinct_points() {
+        return Err(Error::AllPointsEqual { points: points.len() });
+    }
+    let parameters = assign_parameters(points, false, &parameterization)?;
+    let parameters = onto_domain(parameters, basis, &parameterization, "", choices)?;
+    let operator = DenseCollocation::new(basis, &parameters)?;
+    Ok(Collocated { operator, parameters, parameterization })
 }
 
 /// Refuses another number of functions than points.

@@ -85,9 +85,34 @@ pub fn fit_curve_observed<'a>(
         Some(kept) => error.renumbered(kept),
         None => error,
     };
-    let parameters =
-        assign_parameters(view, options.closed, &parameterization).map_err(renumber)?;
-    let placement = match (&options.knot_placement, &parameterization) {
+    let Located { parameters, knots, placement } =
+        locate(view, &parameterization, options, &mut choices).map_err(renumber)?;
+    let problem = Problem { data: view, size, parameters, knots };
+    let mut fit = fit_problem(problem, options, observer).map_err(renumber)?;
+    fit.report.parameterization = parameterization_name(&parameterization);
+    fit.report.knot_placement = placement_name(&placement);
+    choices.append(&mut fit.report.run.choices);
+    fit.report.run.choices = choices;
+    fit.kept_points = cleaned.kept;
+    Ok(fit)
+}
+
+/// Where the data sit, and over which knots.
+pub(super) struct Located {
+    pub(super) parameters: Parameters,
+    pub(super) knots: KnotVector,
+    pub(super) placement: KnotPlacement,
+}
+
+/// Assigns parameters and places knots.
+pub(super) fn locate(
+    points: PointsView<'_>,
+    parameterization: &Parameterization,
+    options: &CurveOptions,
+    choices: &mut Vec<String>,
+) -> Result<Located, Error> {
+    let parameters = assign_parameters(points, options.closed, parameterization)?;
+    let placement = match (&options.knot_placement, parameterization) {
         (Some(_), Parameterization::ChordRatio)
             if options.knot_placement != Some(KnotPlacement::Uniform) =>
         {
@@ -105,14 +130,7 @@ pub fn fit_curve_observed<'a>(
         }
     };
     let knots = place_knots(options.degree, &parameters, &placement)?;
-    let problem = Problem { data: view, size, parameters, knots };
-    let mut fit = fit_problem(problem, options, observer).map_err(renumber)?;
-    fit.report.parameterization = parameterization_name(&parameterization);
-    fit.report.knot_placement = placement_name(&placement);
-    choices.append(&mut fit.report.run.choices);
-    fit.report.run.choices = choices;
-    fit.kept_points = cleaned.kept;
-    Ok(fit)
+    Ok(Located { parameters, knots, placement })
 }
 
 /// Interpolates points at parameters and over knots that are already known; of the options, those

@@ -2,7 +2,11 @@
 
 use super::{IterationWeight, Method};
 use crate::Error;
-use crate::collocation::{CollocationMatrix, gauss_seidel_rate, smallest_eigenvalue_of};
+use crate::collocation::{
+    CollocationMatrix, Eigenvalue, all_eigenvalues, best_weight, gauss_seidel_rate, lemma2_weight,
+    smallest_eigenvalue_of,
+};
+use crate::diagnosis::dominance;
 use crate::iteration::UpdateRule;
 use crate::iteration::update::{
     Anderson, Chebyshev, GaussSeidel, Jacobi, PerPoint, Pia, Preconditioned, Sor, Staged, Weighted,
@@ -32,8 +36,7 @@ pub(super) fn choose<'a>(
         let bounds = smallest_eigenvalue_of(operator)?;
         // Where the enclosure did not close, the estimate is not worth telling.
         eigenvalue = (bounds.estimate <= 1.5 * bounds.lower).then_some(bounds.estimate);
-        // The lower bound is safe; far off the estimate it would only be slow.
-        Ok(bounds.lower.max(0.5 * bounds.estimate))
+        Ok(bounds.for_weights())
     };
     let (name, rule): (_, Box<dyn UpdateRule + 'a>) = match method {
         Method::Auto => {
@@ -50,7 +53,9 @@ pub(super) fn choose<'a>(
             }
         }
         Method::Pia => ("pia", Box::new(Pia)),
-        Method::Weighted => ("weighted", weighted(weight, &mut smallest, &mut choices)?),
+        Method::Weighted => {
+            ("weighted", weighted(weight, &[operator], &mut smallest, &mut choices)?)
+        }
         Method::Jacobi => ("jacobi", Box::new(Jacobi::new(operator))),
         Method::GaussSeidel => ("gauss-seidel", Box::new(GaussSeidel::new(operator))),
         Method::Sor => {
@@ -86,18 +91,35 @@ pub(super) fn choose<'a>(
     Ok(ChosenRule { rule, name, choices, smallest_eigenvalue: eigenvalue })
 }
 
-/// The rule of weighted PIA; `smallest` finds the smallest eigenvalue where the weight is left to us.
+/// The rule of weighted PIA on the Kronecker product of operators; `smallest` finds the smallest
+/// eigenvalue where the weight is left to us.
 pub(super) fn weighted(
     weight: &IterationWeight,
+    operators: &[&dyn CollocationMatrix],
     smallest: impl FnOnce() -> Result<f64, Error>,
     choices: &mut Vec<String>,
 ) -> Result<Box<dyn UpdateRule>, Error> {
     Ok(match weight {
         IterationWeight::PerPoint(omega) => Box::new(PerPoint::new(omega.clone())),
         IterationWeight::Same(omega) => Box::new(Weighted::new(*omega)),
+        IterationWeight::Lemma2 => Box::new(Weighted::new(generalised(operators, choices)?)),
         IterationWeight::Auto => {
-            let omega = Weighted::best_for(smallest()?);
-            choices.push(format!("weight: {omega:.6}, best for the smallest eigenvalue"));
+            let positive = operators.iter().all(|operator| operator.is_totally_positive());
+            let few = operators.iter().all(|operator| operator.points() <= FEW_POINTS);
+            let all = if few && !positive { spectrum(operators)? } else { None };
+            let omega = match all.as_deref().and_then(best_weight) {
+                Some((omega, rate)) => {
+                    choices.push(format!(
+                        "weight: {omega:.6}, best for all eigenvalues: a step leaves {rate:.4}"
+                    ));
+                    omega
+                }
+                None => {
+                    let omega = Weighted::best_for(smallest()?);
+                    choices.push(format!("weight: {omega:.6}, best for the smallest eigenvalue"));
+                    omega
+                }
+            };
             Box::new(Weighted::new(omega))
         }
     })
@@ -141,6 +163,62 @@ pub(super) fn anderson(
 /// Most steps that Anderson acceleration remembers.
 const MOST_MEMORY: usize = 1000;
 
+/// Points up to which the best weight is worth all eigenvalues.
+const FEW_POINTS: usize = 64;
+/// Points up to which all eigenvalues are found where they are asked for.
+const MOST_POINTS: usize = 512;
+
+/// The weight of Lemma 2.
+fn generalised(
+    operators: &[&dyn CollocationMatrix],
+    choices: &mut Vec<String>,
+) -> Result<f64, Error> {
+    let refused = |why| {
+        Err(Error::Incompatible {
+            what: "the weight of Lemma 2",
+            with: "these points and this basis",
+            why,
+        })
+    };
+    if operators.iter().all(|operator| operator.is_totally_positive()) {
+        choices.push("weight: 1, by Lemma 2: all eigenvalues lie in (0, 1]".into());
+        return Ok(1.0);
+    }
+    if operators.iter().all(|operator| operator.points() <= MOST_POINTS) {
+        let all = spectrum(operators)?.unwrap_or_default();
+        let Some(omega) = lemma2_weight(&all).filter(|_| !all.is_empty()) else {
+            return refused(
+                "an eigenvalue has a real part that is not positive, so no weight converges; use \
+                 the method auto",
+            );
+        };
+        choices.push(format!("weight: {omega:.6}, by Lemma 2, from all eigenvalues"));
+        return Ok(omega);
+    }
+    // Gershgorin's discs, scaled, lie within distance 1 from 1, as rows sum to 1.
+    if operators.iter().all(|operator| {
+        operator.is_totally_positive()
+            || (operators.len() == 1 && dominance(*operator).is_generalised())
+    }) {
+        choices.push("weight: 1, by Lemma 2: the diagonal dominates (property GDD)".into());
+        return Ok(1.0);
+    }
+    refused(
+        "beyond 512 points eigenvalues are not sought, and the diagonal does not dominate; use the \
+         weight auto, or the method auto",
+    )
+}
+
+/// All eigenvalues of a Kronecker product; `None` if they cannot be found.
+fn spectrum(operators: &[&dyn CollocationMatrix]) -> Result<Option<Vec<Eigenvalue>>, Error> {
+    let mut all = vec![Eigenvalue { re: 1.0, im: 0.0 }];
+    for operator in operators {
+        let Some(own) = all_eigenvalues(*operator)? else { return Ok(None) };
+        all = all.iter().flat_map(|a| own.iter().map(|b| a.times(*b))).collect();
+    }
+    Ok(Some(all))
+}
+
 pub(super) fn check_weight(
     method: Method,
     weight: &IterationWeight,
@@ -165,6 +243,12 @@ pub(super) fn check_weight(
             what: "an iteration weight",
             with: "this method",
             why: "only weighted and sor have one",
+        }),
+        IterationWeight::Lemma2 if per_point => Ok(()),
+        IterationWeight::Lemma2 => Err(Error::Incompatible {
+            what: "the weight of Lemma 2",
+            with: "this method",
+            why: "it is one of weighted",
         }),
         IterationWeight::Same(omega) if in_range(*omega) => Ok(()),
         IterationWeight::Same(omega) => out_of_range("iteration weight".into(), *omega),

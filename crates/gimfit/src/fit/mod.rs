@@ -3,6 +3,7 @@
 mod blending;
 mod blending_surface;
 mod curve;
+mod diagnose;
 mod keep;
 mod method;
 mod options;
@@ -16,6 +17,7 @@ pub use blending_surface::{
     BlendingSurfaceFit, fit_blending_surface, fit_blending_surface_observed,
 };
 pub use curve::{CurveFit, fit_curve, fit_curve_observed, interpolate};
+pub use diagnose::{CurveDiagnosis, diagnose_blending_curve, diagnose_curve};
 pub use keep::KeptFit;
 pub use options::{
     BlendingOptions, BlendingSurfaceOptions, CurveOptions, IterationWeight, Method, SurfaceOptions,

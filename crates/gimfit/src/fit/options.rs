@@ -45,6 +45,9 @@ pub enum IterationWeight {
     Auto,
     /// The same for all points, in (0, 2).
     Same(f64),
+    /// That of Chen, Wang and Jin (2012), Lemma 2, with which weighted PIA converges whenever all
+    /// eigenvalues, complex ones included, have positive real parts; [`Method::Weighted`] only.
+    Lemma2,
     /// One per point, each in (0, 2); [`Method::Weighted`] only.
     PerPoint(Vec<f64>),
 }

@@ -40,7 +40,7 @@ pub(super) fn choose_both<'a>(
         let tight = u.estimate <= 1.5 * u.lower && v.estimate <= 1.5 * v.lower;
         eigenvalue = tight.then_some(u.estimate * v.estimate);
         // Eigenvalues of a Kronecker product are products.
-        Ok(u.lower.max(0.5 * u.estimate) * v.lower.max(0.5 * v.estimate))
+        Ok(u.for_weights() * v.for_weights())
     };
     let banded = |q: Option<usize>| -> Result<_, Error> {
         Ok(Both::new(Preconditioned::new(u, q)?, Preconditioned::new(v, q)?, columns))
@@ -58,7 +58,7 @@ pub(super) fn choose_both<'a>(
             ("preconditioned", Box::new(banded(None)?))
         }
         Method::Pia => ("pia", Box::new(Pia)),
-        Method::Weighted => ("weighted", weighted(weight, &mut smallest, &mut choices)?),
+        Method::Weighted => ("weighted", weighted(weight, &[u, v], &mut smallest, &mut choices)?),
         Method::Jacobi => ("jacobi", Box::new(Both::new(Jacobi::new(u), Jacobi::new(v), columns))),
         Method::GaussSeidel => {
             ("gauss-seidel", Box::new(Both::new(GaussSeidel::new(u), GaussSeidel::new(v), columns)))
