@@ -47,14 +47,37 @@ def chord_lengths(points):
     return parameters
 
 
+def grid_points(count):
+    """A wavy sheet with a little noise over uneven steps: parameters of rows and columns, points."""
+    random = np.random.default_rng(3)
+    steps = 0.4 + 1.2 * random.random((2, count - 1))
+    u, v = np.concatenate([np.zeros((2, 1)), np.cumsum(steps, axis=1)], axis=1)
+    u, v = u / u[-1], v / v[-1]
+    waves = max(2.0, count / 40.0)
+    points = np.empty((count, count, 3))
+    points[:, :, 0] = u[:, None] + 0.01 * np.sin(9 * v)[None, :]
+    points[:, :, 1] = v[None, :] + 0.01 * np.cos(7 * u)[:, None]
+    points[:, :, 2] = 0.2 * np.sin(waves * u)[:, None] * np.cos(waves * v)[None, :]
+    return u, v, points + 0.02 / count * random.standard_normal(points.shape)
+
+
+def not_a_knot(parameters):
+    return np.concatenate([[parameters[0]] * 4, parameters[2:-2], [parameters[-1]] * 4])
+
+
 def make(workload, count):
-    """Writes points (.p), parameters (.u) and, for the open workload, not-a-knot knots (.t)."""
+    """Writes points (.p), parameters (.u) and not-a-knot knots (.t) where they are given; for a
+    surface parameters of rows (.u) and columns (.v), and their knots (.s and .t)."""
     name = f"{workload}_{count}"
+    if workload == "W3":
+        u, v, points = grid_points(count)
+        for kind, values in zip("uvstp", (u, v, not_a_knot(u), not_a_knot(v), points)):
+            save(f"{name}.{kind}", values)
+        return
     if workload == "W1":
         points = open_points(count)
         parameters = chord_lengths(points)
-        first, last = [parameters[0]] * 4, [parameters[-1]] * 4
-        save(name + ".t", np.concatenate([first, parameters[2:-2], last]))
+        save(name + ".t", not_a_knot(parameters))
     else:
         points = closed_points(count)
         parameters = chord_lengths(np.vstack([points, points[:1]]))
@@ -72,6 +95,6 @@ def full_knots(workload, count):
 
 
 def remove(workload, count):
-    for kind in ("p", "u", "t"):
+    for kind in "puvst":
         if os.path.exists(path(f"{workload}_{count}.{kind}")):
             os.remove(path(f"{workload}_{count}.{kind}"))

@@ -5,4 +5,5 @@ pub mod clock;
 pub mod data;
 pub mod memory;
 pub mod report;
+pub mod surface;
 pub mod workload;

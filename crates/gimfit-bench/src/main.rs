@@ -6,6 +6,7 @@
 use anyhow::{bail, ensure};
 use clap::Parser;
 use gimfit_bench::report::{self, PEER};
+use gimfit_bench::surface;
 use gimfit_bench::workload::Workload;
 use std::io::Write;
 use std::path::PathBuf;
@@ -18,7 +19,7 @@ struct Arguments {
     /// Print the cases
     #[arg(long, exclusive = true)]
     list: bool,
-    /// W1 or W2, then gimfit.interpolate, then the number of points
+    /// W1, W2 or W3, then gimfit.interpolate, then the number of points (of W3: in a row)
     #[arg(value_names = ["WORKLOAD", "PEER", "SIZE"], num_args = 3)]
     case: Vec<String>,
     /// How long to repeat the case; otherwise $BENCH_SECONDS, or 3
@@ -36,13 +37,13 @@ fn main() -> anyhow::Result<()> {
         for workload in Workload::ALL {
             writeln!(output, "{}\t{PEER}\t{SIZES}\t{}", workload.name(), workload.note())?;
         }
+        writeln!(output, "{}\t{PEER}\t{}\t{}", surface::NAME, surface::SIZES, surface::NOTE)?;
         return Ok(());
     }
     let [workload, peer, size] = arguments.case.as_slice() else {
         bail!("a case is <workload> {PEER} <size>; --list prints them");
     };
     ensure!(peer == PEER, "there is no peer {peer}; ours is {PEER}");
-    let workload = Workload::named(workload)?;
     let control_points = arguments.control_points.as_deref();
     let seconds = match (arguments.seconds, std::env::var("BENCH_SECONDS")) {
         (Some(seconds), _) => seconds,

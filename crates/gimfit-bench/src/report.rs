@@ -1,8 +1,10 @@
 //! One case from its files to its line of results.
 
 use crate::clock::{Budget, Times, median, repeat};
-use crate::workload::{Input, Workload};
+use crate::surface::{self, Grid};
+use crate::workload::{Input, Residuals, Workload};
 use crate::{data, memory};
+use gimfit::RunReport;
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -13,49 +15,90 @@ pub const PEER: &str = "gimfit.interpolate";
 /// the result of the first run.
 ///
 /// # Errors
-/// If the data cannot be read or fitted.
+/// If there is no such workload, or the data cannot be read or fitted.
 pub fn run(
-    workload: Workload,
+    workload: &str,
     size: &str,
     seconds: f64,
     control_points: Option<&Path>,
 ) -> anyhow::Result<Value> {
     let count: usize = size.parse()?;
-    let mut input = Input::read(workload, count)?;
-    let before = memory::resident();
-    let owned = input.take();
-    let mut first = Times::default();
-    let fit = first.record(|| input.interpolate(owned))?;
-    let peak = memory::peak();
-    let residuals = input.check(&fit)?;
-    if let Some(path) = control_points {
-        data::write(path, fit.curve.control_points().coordinates())?;
+    let case = Case { workload, size, seconds, control_points };
+    if workload == surface::NAME {
+        let grid = Grid::read(count)?;
+        let options = grid.options();
+        return case.run(
+            || Ok(()),
+            |()| grid.interpolate(&options),
+            |fit| {
+                let net = fit.surface.control_net().points().coordinates();
+                Ok((grid.check(fit)?, fit.report.run.clone(), net))
+            },
+        );
     }
-    let report = fit.report.clone();
-    drop(fit);
+    let named = Workload::named(workload)?;
+    let input = Input::read(named, count)?;
+    let mut untouched = Some(Input::read(named, count)?);
+    case.run(
+        // The arrays taken over by the first run are copied from then on.
+        || Ok(untouched.take().map_or_else(|| input.copy(), |mut input| input.take())),
+        |owned| input.interpolate(owned),
+        |fit| {
+            let control = fit.curve.control_points().coordinates();
+            Ok((input.check(fit)?, fit.report.run.clone(), control))
+        },
+    )
+}
 
-    // The arrays taken over by the first run are read again, and copied from then on.
-    let input = Input::read(workload, count)?;
-    let budget = Budget { seconds, least: 5, most: 10_000 };
-    let times = repeat(budget, || input.copy(), |owned| input.interpolate(owned));
-    let wall: f64 = times.wall.iter().sum();
-    Ok(json!({
-        "workload": workload.name(),
-        "peer": PEER,
-        "size": size,
-        "median": median(&times.wall),
-        "min": times.wall.iter().copied().fold(f64::INFINITY, f64::min),
-        "reps": times.wall.len(),
-        "cpu_median": median(&times.processor),
-        "cpu_per_wall": times.processor.iter().sum::<f64>() / wall,
-        "first_call": first.wall[0],
-        "rss_mb": peak,
-        "work_mb": peak.zip(before).map(|(peak, before)| peak - before),
-        "max_res": residuals.largest,
-        "rms": residuals.root_mean_square,
-        "extent": residuals.extent,
-        "iterations": report.run.iterations,
-        "method": report.run.method,
-        "converged": report.converged(),
-    }))
+/// What is asked for on the command line.
+struct Case<'a> {
+    workload: &'a str,
+    size: &'a str,
+    seconds: f64,
+    control_points: Option<&'a Path>,
+}
+
+impl Case<'_> {
+    /// `prepare` makes what `fit` takes over, outside the time measured; `judge` finds the residuals
+    /// of a fit, the account of its run, and its control points.
+    fn run<T, F>(
+        &self,
+        mut prepare: impl FnMut() -> anyhow::Result<T>,
+        mut fit: impl FnMut(T) -> Result<F, gimfit::Error>,
+        judge: impl Fn(&F) -> anyhow::Result<(Residuals, RunReport, &[f64])>,
+    ) -> anyhow::Result<Value> {
+        let owned = prepare()?;
+        let before = memory::resident();
+        let mut first = Times::default();
+        let result = first.record(|| fit(owned))?;
+        let peak = memory::peak();
+        let (residuals, run, control) = judge(&result)?;
+        if let Some(path) = self.control_points {
+            data::write(path, control)?;
+        }
+        drop(result);
+
+        let budget = Budget { seconds: self.seconds, least: 5, most: 10_000 };
+        let times = repeat(budget, &mut prepare, |owned| owned.map(&mut fit));
+        let wall: f64 = times.wall.iter().sum();
+        Ok(json!({
+            "workload": self.workload,
+            "peer": PEER,
+            "size": self.size,
+            "median": median(&times.wall),
+            "min": times.wall.iter().copied().fold(f64::INFINITY, f64::min),
+            "reps": times.wall.len(),
+            "cpu_median": median(&times.processor),
+            "cpu_per_wall": times.processor.iter().sum::<f64>() / wall,
+            "first_call": first.wall[0],
+            "rss_mb": peak,
+            "work_mb": peak.zip(before).map(|(peak, before)| peak - before),
+            "max_res": residuals.largest,
+            "rms": residuals.root_mean_square,
+            "extent": residuals.extent,
+            "iterations": run.iterations,
+            "method": run.method,
+            "converged": run.converged(),
+        }))
+    }
 }

@@ -32,7 +32,7 @@ impl Workload {
     /// If there is none of that name.
     pub fn named(name: &str) -> anyhow::Result<Self> {
         let found = Self::ALL.into_iter().find(|workload| workload.name() == name);
-        found.with_context(|| format!("there is no workload {name}; W1 and W2 exist"))
+        found.with_context(|| format!("there is no workload {name}; W1, W2 and W3 exist"))
     }
 
     /// Its short name.
