@@ -7,6 +7,7 @@ mod curve;
 mod diagnose;
 mod evaluate;
 mod explain;
+mod family;
 mod finish;
 mod info;
 mod input;

@@ -1,6 +1,7 @@
 //! Files of a fit, by their endings: all produced first, then named.
 
 use crate::arguments::WritingArguments;
+use crate::family::{self, Family};
 use crate::input;
 use crate::targets::{self, Kind, is_standard, kind, known_kind};
 use anyhow::{Context, ensure};
@@ -20,13 +21,15 @@ const PNG_SCALE: f32 = 2.0;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Wanted<'a> {
     pub(crate) arguments: &'a WritingArguments,
+    /// Iterations whose fits are kept, for files of each.
+    keep: &'a [usize],
     /// Whether samples were asked for.
     samples: bool,
 }
 
 impl<'a> Wanted<'a> {
-    pub(crate) fn new(arguments: &'a WritingArguments, samples: bool) -> Self {
-        Self { arguments, samples }
+    pub(crate) fn new(arguments: &'a WritingArguments, keep: &'a [usize], samples: bool) -> Self {
+        Self { arguments, keep, samples }
     }
 
     /// File of the report.
@@ -40,8 +43,16 @@ impl<'a> Wanted<'a> {
         for path in &self.arguments.output {
             known_kind(path, &ENDINGS)?;
         }
-        let outputs: Vec<&Path> =
-            self.arguments.output.iter().map(PathBuf::as_path).chain(self.report()).collect();
+        let mut files: Vec<PathBuf> = Vec::new();
+        for path in &self.arguments.output {
+            files.extend(family::files(path, self.keep)?);
+        }
+        ensure!(
+            !self.report().is_some_and(family::has_place),
+            "--report writes one report, that of the whole run; the documents of \
+             -o FILE-{{k}}.json hold the reports of the kept fits"
+        );
+        let outputs: Vec<&Path> = files.iter().map(PathBuf::as_path).chain(self.report()).collect();
         let standard = outputs.iter().filter(|path| is_standard(path)).count();
         ensure!(
             standard + usize::from(self.arguments.json) <= 1,
@@ -73,6 +84,12 @@ pub(crate) trait Product {
 
     /// Notes how long writing took, in seconds.
     fn set_write_time(&mut self, seconds: f64);
+
+    /// Calls `visit` with each kept fit as a product of its own.
+    fn each_member(
+        &self,
+        visit: &mut dyn FnMut(usize, &mut dyn Product) -> anyhow::Result<()>,
+    ) -> anyhow::Result<()>;
 }
 
 /// All that is to be written, complete: files that have not yet taken their names, and the document
@@ -86,49 +103,78 @@ pub(crate) struct Outputs {
 }
 
 impl Outputs {
-    /// Produces everything but the report. Documents come last, so that they can tell how long the
-    /// others took.
+    /// Produces everything but the report: the files of each kept fit, then those of the whole run.
     pub(crate) fn prepare(product: &mut dyn Product, wanted: Wanted<'_>) -> anyhow::Result<Self> {
         let clock = Instant::now();
         let mut outputs = Self::default();
+        let families: Vec<Family<'_>> =
+            wanted.arguments.output.iter().filter_map(|path| Family::of(path)).collect();
+        if !families.is_empty() {
+            let mut members = Vec::new();
+            product.each_member(&mut |iteration, member| {
+                members.push(iteration);
+                let paths: Vec<PathBuf> = families.iter().map(|f| f.file(iteration)).collect();
+                outputs.produce(member, &paths, clock)
+            })?;
+            outputs.written = families.iter().map(|family| family.wrote(&members)).collect();
+        }
+        let single: Vec<PathBuf> = wanted
+            .arguments
+            .output
+            .iter()
+            .filter(|path| Family::of(path).is_none())
+            .cloned()
+            .collect();
+        outputs.produce(product, &single, clock)?;
+        product.set_write_time(clock.elapsed().as_secs_f64());
+        let report = wanted.report().filter(|path| !is_standard(path));
+        outputs.written.extend(report.map(|path| format!("{}: report", path.display())));
+        Ok(outputs)
+    }
+
+    /// Produces files of one fit. Documents come last, so that they can tell how long the others
+    /// took.
+    fn produce(
+        &mut self,
+        product: &mut dyn Product,
+        paths: &[PathBuf],
+        clock: Instant,
+    ) -> anyhow::Result<()> {
         let mut picture = None;
-        for path in &wanted.arguments.output {
+        for path in paths {
             match kind(path) {
                 Some(Kind::Csv) => {
                     let mut what = String::new();
-                    outputs.files.push(prepare_file(path, |out| {
+                    self.files.push(prepare_file(path, |out| {
                         what = product.table(out)?;
                         Ok(())
                     })?);
-                    outputs.written.push(format!("{}: {what}", path.display()));
+                    self.written.push(format!("{}: {what}", path.display()));
                 }
                 Some(Kind::Svg) => {
                     let svg = picture.get_or_insert_with(|| product.svg());
-                    outputs.file(path, "picture", |out| out.write_all(svg.as_bytes()))?;
+                    self.file(path, "picture", |out| out.write_all(svg.as_bytes()))?;
                 }
                 Some(Kind::Png) => {
                     let svg = picture.get_or_insert_with(|| product.svg());
                     let png = gimfit_io::figure::svg_to_png(svg, PNG_SCALE)
                         .with_context(|| format!("cannot write {}", path.display()))?;
-                    outputs.file(path, "picture", |out| out.write_all(&png))?;
+                    self.file(path, "picture", |out| out.write_all(&png))?;
                 }
                 Some(Kind::Json | Kind::StandardOutput) | None => {}
             }
         }
         product.set_write_time(clock.elapsed().as_secs_f64());
-        for path in &wanted.arguments.output {
+        for path in paths {
             match kind(path) {
-                Some(Kind::StandardOutput) => outputs.document = Some(product.json(true)?),
+                Some(Kind::StandardOutput) => self.document = Some(product.json(true)?),
                 Some(Kind::Json) => {
-                    outputs.file(path, "document", |out| product.write_json(out))?;
+                    self.file(path, "document", |out| product.write_json(out))?;
                 }
                 _ => {}
             }
         }
-        product.set_write_time(clock.elapsed().as_secs_f64());
-        let report = wanted.report().filter(|path| !is_standard(path));
-        outputs.written.extend(report.map(|path| format!("{}: report", path.display())));
-        Ok(outputs)
+        Ok(())
     }
 
     /// Produces the report where a file was asked for.

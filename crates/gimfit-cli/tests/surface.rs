@@ -138,3 +138,109 @@ fn parameters_of_the_file_that_are_left_aside_are_told_in_print_and_document() {
     assert!(told("surface grid.csv") && told("surface grid.csv --json"));
     assert!(!told("surface grid.csv --parameters axes"));
 }
+
+#[test]
+fn each_kept_fit_is_a_complete_file_of_its_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    fs::write(at.join("peaks.csv"), peaks()).unwrap();
+    gimfit(
+        at,
+        "surface peaks.csv --method pia --residual 0 --iterations 9 --keep 0,4 -o S-{k}.json \
+         -o S-{iteration}.csv -o S-{k}.svg -o S-{k}.png -o all.json -q",
+    )
+    .code(0);
+    let document = |name: &str| -> serde_json::Value {
+        serde_json::from_slice(&fs::read(at.join(name)).unwrap()).unwrap()
+    };
+    for k in [0, 4] {
+        gimfit(
+            at,
+            &format!(
+                "surface peaks.csv --method pia --residual 0 --iterations {k} -o alone.json -q"
+            ),
+        )
+        .code(0);
+        let (member, alone) = (document(&format!("S-{k}.json")), document("alone.json"));
+        assert_eq!(member["geometry"], alone["geometry"]);
+        assert_eq!(member["parameters"], alone["parameters"]);
+        for number in ["max_residual", "rms_residual", "max_deviation"] {
+            let of = |d: &serde_json::Value| d["report"][number].as_f64().unwrap();
+            assert!((of(&member) - of(&alone)).abs() < 1e-9 * of(&alone), "{k} {number}");
+        }
+        assert_eq!(member["report"]["max_residual_index"], alone["report"]["max_residual_index"]);
+        let info = gimfit(at, &format!("info S-{k}.json")).code(0);
+        assert!(text(&info.get_output().stdout).contains("open surface"));
+        for ending in ["csv", "svg", "png"] {
+            assert!(at.join(format!("S-{k}.{ending}")).exists(), "{ending}");
+        }
+    }
+    let refused = gimfit(at, "surface peaks.csv -o X-{k}.json").code(2);
+    assert!(text(&refused.get_output().stderr).contains("--keep"));
+    let same = gimfit(at, "surface peaks.csv --keep 0,1 -o X-{k}.json -o X-1.json").code(2);
+    assert!(text(&same.get_output().stderr).contains("one file"));
+    let report = gimfit(at, "surface peaks.csv --keep 0 --report R-{k}.json").code(2);
+    assert!(text(&report.get_output().stderr).contains("whole run"));
+    assert!(!at.join("X-0.json").exists() && !at.join("X-1.json").exists());
+}
+
+#[test]
+fn choices_for_each_direction_come_from_rules_and_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    fs::write(at.join("peaks.csv"), peaks()).unwrap();
+    let axis: String = (0..11).map(|i| format!("{}\n", f64::from(i * i))).collect();
+    fs::write(at.join("t.txt"), axis).unwrap();
+    fs::write(at.join("w.txt"), "1.5\n".repeat(11)).unwrap();
+    gimfit(at, "surface peaks.csv --parameters uniform,t.txt -o a.json -q").code(0);
+    let document: serde_json::Value =
+        serde_json::from_slice(&fs::read(at.join("a.json")).unwrap()).unwrap();
+    assert_eq!(document["parameters"][1][10], 100.0);
+    assert_eq!(document["report"]["parameterizations"], serde_json::json!(["uniform", "given"]));
+    let knots: Vec<String> = document["geometry"]["knots"][1]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(ToString::to_string)
+        .collect();
+    fs::write(at.join("k.txt"), knots.join("\n")).unwrap();
+    gimfit(at, "surface peaks.csv --parameters uniform,t.txt --knots averaged,k.txt -o b.json -q")
+        .code(0);
+    let again: serde_json::Value =
+        serde_json::from_slice(&fs::read(at.join("b.json")).unwrap()).unwrap();
+    assert_eq!(again["geometry"], document["geometry"]);
+    let weighted = "surface peaks.csv --method weighted --iterations 40 --residual 0 -q";
+    gimfit(at, &format!("{weighted} --per-direction --weight w.txt,1.5 -o c.json")).code(0);
+    gimfit(at, &format!("{weighted} --per-direction --weight 1.5 -o d.json")).code(0);
+    let geometry = |name: &str| -> serde_json::Value {
+        let document: serde_json::Value =
+            serde_json::from_slice(&fs::read(at.join(name)).unwrap()).unwrap();
+        document["geometry"].clone()
+    };
+    assert_eq!(geometry("c.json"), geometry("d.json"));
+    let says = |line: &str, part: &str| {
+        let refused = gimfit(at, line).code(2);
+        let said = text(&refused.get_output().stderr);
+        assert!(said.contains(part), "{line}: {said}");
+    };
+    says(&format!("{weighted} --weight 1.5,auto"), "--per-direction");
+    says("surface peaks.csv --parameters none.txt", "--parameters takes chord");
+    says("surface peaks.csv --parameters chord,", "a rule is missing");
+    says("surface peaks.csv --parameters -,- --knots -", "standard input");
+    says("surface peaks.csv --method jacobi", "one direction after the other");
+    says("surface peaks.csv --parameters k.txt", "parameters");
+}
+
+#[test]
+fn abscissae_that_fall_are_counted_from_the_other_end() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let header = "ncols 5\nnrows 4\nxllcorner 100\nyllcorner 200\ncellsize 10\n";
+    fs::write(at.join("dem.asc"), format!("{header}1 2 3 4 5\n2 3 5 4 3\n3 4 6 5 2\n4 4 4 4 1\n"))
+        .unwrap();
+    let run = gimfit(at, "surface dem.asc --parameters axes -o dem.json").code(0);
+    assert!(text(&run.get_output().stdout).contains("minus the abscissae of the rows"));
+    let document: serde_json::Value =
+        serde_json::from_slice(&fs::read(at.join("dem.json")).unwrap()).unwrap();
+    assert_eq!(document["parameters"][0], serde_json::json!([-235.0, -225.0, -215.0, -205.0]));
+}

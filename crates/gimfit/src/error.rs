@@ -204,6 +204,23 @@ pub enum Error {
         /// The reason, and what to do.
         why: &'static str,
     },
+    /// A fit of the way that was not kept.
+    ///
+    /// ```
+    /// # use gimfit::{CurveOptions, Error, fit_curve};
+    /// let points = [[0.0, 0.0], [1.0, 2.0], [3.0, 3.0], [4.0, 1.0]];
+    /// let options = CurveOptions { keep: vec![0, 2], ..Default::default() };
+    /// let error = fit_curve(&points, &options)?.member(1).unwrap_err();
+    /// assert_eq!(error, Error::NotKept { iteration: 1, kept: vec![0, 2] });
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[error("no fit of iteration {iteration} was kept; kept are those of {kept:?}")]
+    NotKept {
+        /// The iteration asked for.
+        iteration: usize,
+        /// Those kept.
+        kept: Vec<usize>,
+    },
     /// A parameter outside the curve's domain.
     #[error("parameter {parameter:?} lies outside the domain [{start:?}, {end:?}]")]
     OutsideDomain {

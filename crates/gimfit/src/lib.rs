@@ -59,8 +59,8 @@ pub use error::Error;
 pub use fit::{
     BlendingCurveFit, BlendingOptions, BlendingSurfaceFit, BlendingSurfaceOptions, CurveDiagnosis,
     CurveFit, CurveOptions, IterationWeight, KeptFit, Method, SurfaceFit, SurfaceOptions,
-    diagnose_blending_curve, diagnose_curve, fit_blending_curve, fit_blending_surface, fit_curve,
-    fit_curve_observed, fit_surface, fit_surface_observed,
+    SurfaceWeight, diagnose_blending_curve, diagnose_curve, fit_blending_curve,
+    fit_blending_surface, fit_curve, fit_curve_observed, fit_surface, fit_surface_observed,
 };
 pub use geometry::{BlendingCurve, BlendingSurface, Curve, Surface};
 pub use iteration::{HistoryEntry, Termination};

@@ -178,7 +178,7 @@ proptest! {
             parameterizations: [u.parameterization, v.parameterization],
             knot_placements: [u.knot_placement, v.knot_placement],
             method: u.method,
-            weight: u.weight,
+            weight: u.weight.into(),
             per_direction,
             iterations: u.iterations,
             residual: u.residual,

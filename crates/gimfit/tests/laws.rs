@@ -10,7 +10,7 @@ use gimfit::{
     Parameterization, Points, Termination, fit_curve,
 };
 use gimfit_testkit::dense::{self, Rows};
-use gimfit_testkit::generate::{Random, graded, random_walk};
+use gimfit_testkit::generate::{Random, graded, helix, random_walk};
 use gimfit_testkit::textbook;
 
 fn points(rows: &Rows) -> Points {
@@ -558,5 +558,35 @@ fn closed_curves_of_million_to_one_spacing_are_met_at_every_degree() {
             let wild = found.report.run.choices.iter().any(|choice| choice.starts_with("caution"));
             assert!(found.report.converged() || wild, "{seed} {degree}: {:?}", found.report);
         }
+    }
+}
+
+#[test]
+fn a_member_of_a_family_is_the_fit_of_a_run_that_stopped_there() {
+    let open: Vec<[f64; 3]> = helix(40).chunks(3).map(|p| [p[0], p[1], p[2]]).collect();
+    for closed in [false, true] {
+        let options = CurveOptions {
+            closed,
+            method: Method::Pia,
+            iterations: 9,
+            residual: Some(0.0),
+            keep: vec![0, 3, 9],
+            ..Default::default()
+        };
+        let whole = fit_curve(&open, &options).unwrap();
+        for k in [0, 3, 9] {
+            let short =
+                fit_curve(&open, &CurveOptions { iterations: k, keep: vec![], ..options.clone() })
+                    .unwrap();
+            let member = whole.member(k).unwrap();
+            assert_eq!((&member.curve, &member.parameters), (&short.curve, &short.parameters));
+            let (ours, theirs) = (&member.report, &short.report);
+            assert!((ours.run.max_residual - theirs.run.max_residual).abs() < 1e-13);
+            assert!((ours.run.rms_residual - theirs.run.rms_residual).abs() < 1e-13);
+            assert!((ours.max_deviation - theirs.max_deviation).abs() < 1e-9);
+            assert_eq!(ours.max_residual_index, theirs.max_residual_index);
+            assert_eq!(ours.run.history, theirs.run.history);
+        }
+        assert!(whole.member(1).is_err());
     }
 }

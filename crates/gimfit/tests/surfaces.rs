@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, clippy::panic)] // A test that cannot go on has failed.
 
 use gimfit::{
-    Error, GridView, KnotPlacement, Method, Parameterization, SurfaceFit, SurfaceOptions,
-    Termination, fit_surface,
+    Error, GridView, IterationWeight, KnotPlacement, Method, Parameterization, SurfaceFit,
+    SurfaceOptions, SurfaceWeight, Termination, fit_surface,
 };
 use gimfit_testkit::dense::{self, Rows};
 use gimfit_testkit::generate::Random;
@@ -349,4 +349,118 @@ fn the_deviation_is_measured_at_foot_points() {
     }
     let deviation = report.max_deviation;
     assert!(deviation <= least && least < deviation + 2e-3, "{deviation} {least}");
+}
+
+#[test]
+fn a_member_of_a_family_is_the_fit_of_a_run_that_stopped_there() {
+    let shape = [9, 8];
+    for (closed, scale) in [([false, false], 1.0), ([true, true], 1.0), ([true, false], 1e200)] {
+        let points: Vec<f64> = torus(shape).iter().map(|x| scale * x).collect();
+        let options = SurfaceOptions {
+            closed,
+            method: Method::Pia,
+            iterations: 12,
+            residual: Some(0.0),
+            keep: vec![0, 4, 12],
+            ..Default::default()
+        };
+        let whole = fit(shape, &points, &options);
+        for k in [0, 4, 12] {
+            let short = fit(
+                shape,
+                &points,
+                &SurfaceOptions { iterations: k, keep: vec![], ..options.clone() },
+            );
+            let member = whole.member(k).unwrap();
+            assert_eq!(member.surface, short.surface);
+            assert_eq!(member.parameters, short.parameters);
+            assert!(member.sequence.is_empty());
+            let (ours, theirs) = (&member.report, &short.report);
+            let near = |a: f64, b: f64| (a - b).abs() <= 1e-13 * scale * 4.0;
+            assert!(near(ours.run.max_residual, theirs.run.max_residual), "{k}");
+            assert!(near(ours.run.rms_residual, theirs.run.rms_residual), "{k}");
+            assert!((ours.max_deviation - theirs.max_deviation).abs() <= 1e-8 * scale, "{k}");
+            assert_eq!(ours.run.history, theirs.run.history);
+            assert_eq!((ours.run.iterations, ours.run.iteration_returned), (k, k));
+            let gaps = member.difference_vectors.coordinates().iter();
+            assert!(gaps.zip(short.difference_vectors.coordinates()).all(|(a, b)| near(*a, *b)));
+        }
+        assert_eq!(whole.member(5), Err(Error::NotKept { iteration: 5, kept: vec![0, 4, 12] }));
+    }
+}
+
+#[test]
+fn weights_per_direction_are_those_of_curves() {
+    let shape = [8, 9];
+    let points = sheet(shape, 7);
+    let run = |weight: SurfaceWeight| {
+        let options = SurfaceOptions {
+            method: Method::Weighted,
+            per_direction: true,
+            iterations: 5,
+            residual: Some(0.0),
+            weight,
+            ..Default::default()
+        };
+        fit_surface(GridView::new(shape, 3, &points).unwrap(), &options)
+    };
+    let (u, v) = (1.3, 0.8);
+    let pair = |u, v| SurfaceWeight::PerDirection([u, v]);
+    let each = run(pair(IterationWeight::Same(u), IterationWeight::Same(v))).unwrap();
+    let lists = run(pair(
+        IterationWeight::PerPoint(vec![u; shape[0]]),
+        IterationWeight::PerPoint(vec![v; shape[1]]),
+    ));
+    assert_eq!(each.surface, lists.unwrap().surface);
+    let same = run(IterationWeight::Same(u).into()).unwrap();
+    assert_eq!(
+        same.surface,
+        run(pair(IterationWeight::Same(u), IterationWeight::Same(u))).unwrap().surface
+    );
+    assert_ne!(same.surface, each.surface);
+    // The columns of the first stage are curves: their history is that of one with its weight.
+    let stages = each.report.stages.as_ref().unwrap();
+    let column: Vec<f64> =
+        (0..shape[0]).flat_map(|i| points[i * shape[1] * 3..][..3].to_vec()).collect();
+    let knots = each.surface.knots()[0].clone();
+    let parameters = gimfit::parameters::Parameters::open(each.parameters[0].clone()).unwrap();
+    let options = gimfit::CurveOptions {
+        method: Method::Weighted,
+        weight: IterationWeight::Same(u),
+        iterations: 5,
+        residual: Some(0.0),
+        ..Default::default()
+    };
+    let view = gimfit::PointsView::new(3, &column).unwrap();
+    let curve = gimfit::fit::interpolate(view, parameters, knots, &options).unwrap();
+    for (stage, curve) in stages[0].iter().zip(&curve.report.run.history) {
+        assert!(stage.max_residual >= curve.max_residual - 1e-13);
+    }
+    assert_eq!((stages[0].len(), stages[1].len()), (6, 6));
+    // A net that moves as a whole has one weight; a list is as long as its direction.
+    let whole = SurfaceOptions {
+        method: Method::Weighted,
+        weight: pair(IterationWeight::Auto, IterationWeight::Auto),
+        ..Default::default()
+    };
+    let view = GridView::new(shape, 3, &points).unwrap();
+    assert!(matches!(fit_surface(view, &whole), Err(Error::Incompatible { .. })));
+    let short = pair(IterationWeight::PerPoint(vec![1.0; shape[1]]), IterationWeight::Auto);
+    assert!(matches!(run(short), Err(Error::WrongCount { given: 9, expected: 8, .. })));
+}
+
+#[test]
+fn jacobi_on_a_whole_net_runs_where_its_eigenvalues_allow_it() {
+    let shape = [14, 13];
+    let points = sheet(shape, 8);
+    let run = |degrees| {
+        let options = SurfaceOptions { degrees, method: Method::Jacobi, ..Default::default() };
+        fit_surface(GridView::new(shape, 3, &points).unwrap(), &options)
+    };
+    // Below 1.5 in each direction for cubics, 4/3 for quadratics, 1 for lines.
+    for degrees in [[1, 1], [1, 3], [2, 2]] {
+        assert!(run(degrees).unwrap().report.converged(), "{degrees:?}");
+    }
+    assert!(matches!(run([3, 3]), Err(Error::Incompatible { what: "jacobi", .. })));
+    assert!(matches!(run([5, 5]), Err(Error::Incompatible { what: "jacobi", .. })));
 }

@@ -23,7 +23,7 @@ use gimfit::{BlendingOptions, CurveFit, CurveOptions, Error, PointsView, fit_cur
 use gimfit_io::document::{BlendingData, Document, Seconds, document_of};
 use gimfit_io::points::PointTable;
 use plan::Plan;
-pub(crate) use plan::{Shape, shape};
+pub(crate) use plan::{Shape, knot_placement, shape};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -54,11 +54,34 @@ struct Job<'a> {
     basis: Option<String>,
     /// Samples in place of control points.
     samples: Option<usize>,
+    seconds: Seconds,
     document: Document,
 }
 
+impl<'a> Job<'a> {
+    fn new(
+        table: &'a PointTable,
+        fit: &'a CurveFit,
+        basis: Option<String>,
+        samples: Option<usize>,
+        seconds: Seconds,
+    ) -> Self {
+        let mut document = document_of(fit);
+        document.coordinate_names = Some(table.column_names.clone());
+        if let Some(report) = &mut document.report {
+            let notes = table.notes.iter().map(|note| format!("reading: {note}"));
+            report.source = Some(table.source.clone());
+            report.run.choices.splice(0..0, notes);
+            report.run.seconds = Some(seconds);
+        }
+        Self { table, fit, basis, samples, seconds, document }
+    }
+}
+
 pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
-    Wanted::new(&arguments.writing, arguments.samples.is_some()).check(&plan::inputs(arguments))?;
+    let wanted =
+        Wanted::new(&arguments.writing, &arguments.iteration.keep, arguments.samples.is_some());
+    wanted.check(&plan::inputs(arguments))?;
     ensure!(arguments.samples.is_none_or(|n| n >= 2), "--samples must be at least 2");
     signal::listen()?;
     let clock = Instant::now();
@@ -81,24 +104,13 @@ pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
     let (fit, blending) =
         result.map_err(|error| explain_fit(error, &table, &arguments.input, &arguments.shape))?;
 
-    let mut document = document_of(&fit);
-    document.blending = blending;
-    document.coordinate_names = Some(table.column_names.clone());
-    if let Some(report) = &mut document.report {
-        report.source = Some(table.source.clone());
-        report.run.choices.splice(0..0, table.notes.iter().map(|note| format!("reading: {note}")));
-        report.run.seconds = Some(Seconds { read, fit: fitted, write: None });
-    }
-    let mut job = Job {
-        table: &table,
-        fit: &fit,
-        basis: basis.as_deref().map(described),
-        samples: arguments.samples,
-        document,
-    };
+    let seconds = Seconds { read, fit: fitted, write: None };
+    let mut job =
+        Job::new(&table, &fit, basis.as_deref().map(described), arguments.samples, seconds);
+    job.document.blending = blending;
     let report = &fit.report;
     let finish = Finish {
-        wanted: Wanted::new(&arguments.writing, arguments.samples.is_some()),
+        wanted,
         method: arguments.iteration.method,
         run: Run {
             termination: report.run.termination,

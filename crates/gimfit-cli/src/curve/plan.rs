@@ -163,7 +163,8 @@ fn parameterization(
     Ok(Some(Parameterization::Given(values)))
 }
 
-fn knot_placement(choice: &RuleOrFile<KnotRule>) -> anyhow::Result<KnotPlacement> {
+/// The knots of a rule or of a file.
+pub(crate) fn knot_placement(choice: &RuleOrFile<KnotRule>) -> anyhow::Result<KnotPlacement> {
     Ok(match choice {
         RuleOrFile::Rule(KnotRule::Averaged) => KnotPlacement::Averaged,
         RuleOrFile::Rule(KnotRule::NotAKnot) => KnotPlacement::NotAKnot,

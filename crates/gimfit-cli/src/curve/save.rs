@@ -43,4 +43,17 @@ impl Product for Job<'_> {
             times.write = Some(seconds);
         }
     }
+
+    fn each_member(
+        &self,
+        visit: &mut dyn FnMut(usize, &mut dyn Product) -> anyhow::Result<()>,
+    ) -> anyhow::Result<()> {
+        for kept in &self.fit.sequence {
+            let iteration = kept.entry.iteration;
+            let fit = self.fit.member(iteration)?;
+            let basis = self.basis.clone();
+            visit(iteration, &mut Job::new(self.table, &fit, basis, self.samples, self.seconds))?;
+        }
+        Ok(())
+    }
 }

@@ -1,7 +1,7 @@
 //! What can be typed after `gimfit surface`. Choices for the two directions are given as one, for
 //! both, or as two with a comma between: u (rows), then v (columns).
 
-use crate::arguments::{BasisChoice, IterationArguments, KnotRule, WritingArguments};
+use crate::arguments::{BasisChoice, IterationArguments, KnotRule, RuleOrFile, WritingArguments};
 use clap::{Args, ValueEnum};
 use gimfit_io::grids::{GridFormatChoice, parse_shape};
 use gimfit_io::points::{ColumnChoice, DecimalMark, Delimiter, UnknownChoice};
@@ -79,21 +79,23 @@ pub(crate) struct SurfaceArguments {
     )]
     pub(crate) closed: ClosedChoice,
 
-    /// Parameters: chord (lengths averaged over the grid), centripetal, uniform, or axes: the
-    /// abscissae of the file [default: chord]
-    #[arg(long, value_name = "RULE[,RULE]", help_heading = "Surface")]
-    pub(crate) parameters: Option<Pair<GridParameterRule>>,
+    /// Parameters: chord (lengths averaged over the grid), centripetal, uniform, axes (the
+    /// abscissae of the file), or a file of numbers, one per row or column and for a closed
+    /// direction one more [default: chord]
+    #[arg(long, value_name = "RULE|FILE[,RULE|FILE]", help_heading = "Surface")]
+    pub(crate) parameters: Option<Pair<RuleOrFile<GridParameterRule>>>,
 
-    /// Knots: averaged, not-a-knot (odd degrees), at-data (odd degrees; tied ends), uniform
-    /// [default: averaged]
-    #[arg(long, value_name = "RULE[,RULE]", help_heading = "Surface")]
-    pub(crate) knots: Option<Pair<KnotRule>>,
+    /// Knots: averaged, not-a-knot (odd degrees), at-data (odd degrees; tied ends), uniform, or a
+    /// file of numbers [default: averaged]
+    #[arg(long, value_name = "RULE|FILE[,RULE|FILE]", help_heading = "Surface")]
+    pub(crate) knots: Option<Pair<RuleOrFile<KnotRule>>>,
 
     #[command(flatten)]
     pub(crate) iteration: IterationArguments,
 
     /// Run the columns to their limit, then the rows, instead of both in every step, with the
-    /// iterations allowed in each
+    /// iterations allowed in each; --weight may then give two with a comma between, and a file one
+    /// number per row for u, one per column for v
     #[arg(long, help_heading = "Iteration")]
     pub(crate) per_direction: bool,
 
@@ -139,7 +141,7 @@ pub(crate) enum GridParameterRule {
 }
 
 /// A choice for u and one for v.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Pair<T>(pub(crate) [T; 2]);
 
 impl<T: OneChoice> FromStr for Pair<T> {
@@ -148,15 +150,15 @@ impl<T: OneChoice> FromStr for Pair<T> {
     fn from_str(text: &str) -> Result<Self, String> {
         let each: Result<Vec<T>, String> = text.split(',').map(|one| T::read(one.trim())).collect();
         match each?.as_slice() {
-            [both] => Ok(Self([*both, *both])),
-            [u, v] => Ok(Self([*u, *v])),
+            [both] => Ok(Self([both.clone(), both.clone()])),
+            [u, v] => Ok(Self([u.clone(), v.clone()])),
             _ => Err("give one value for both directions, or two with a comma between".into()),
         }
     }
 }
 
 /// What can stand in a [`Pair`].
-pub(crate) trait OneChoice: Copy {
+pub(crate) trait OneChoice: Clone {
     fn read(text: &str) -> Result<Self, String>;
 }
 
@@ -166,34 +168,22 @@ impl OneChoice for usize {
     }
 }
 
-impl OneChoice for GridParameterRule {
+impl<R: ValueEnum> OneChoice for RuleOrFile<R> {
+    /// A word that is no rule is a file.
     fn read(text: &str) -> Result<Self, String> {
-        read_rule(text)
-    }
-}
-
-impl OneChoice for KnotRule {
-    fn read(text: &str) -> Result<Self, String> {
-        read_rule(text)
+        if text.is_empty() {
+            return Err(format!("a rule is missing; the rules are {}", Self::names().join(", ")));
+        }
+        text.parse().map_err(|never| match never {})
     }
 }
 
 impl OneChoice for BasisChoice {
     fn read(text: &str) -> Result<Self, String> {
-        read_choice(text, "basis", "bases")
+        Self::from_str(text, false).map_err(|_| {
+            let values = Self::value_variants().iter().filter_map(ValueEnum::to_possible_value);
+            let known: Vec<String> = values.map(|value| value.get_name().to_owned()).collect();
+            format!("\"{text}\" is no basis; the bases are {}", known.join(", "))
+        })
     }
-}
-
-fn read_rule<R: ValueEnum>(text: &str) -> Result<R, String> {
-    read_choice(text, "rule", "rules")
-}
-
-fn read_choice<R: ValueEnum>(text: &str, one: &str, several: &str) -> Result<R, String> {
-    R::from_str(text, false).map_err(|_| {
-        let known: Vec<String> = R::value_variants()
-            .iter()
-            .filter_map(|rule| rule.to_possible_value().map(|value| value.get_name().to_owned()))
-            .collect();
-        format!("\"{text}\" is no {one}; the {several} are {}", known.join(", "))
-    })
 }

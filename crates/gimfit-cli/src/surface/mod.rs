@@ -55,14 +55,37 @@ struct Job<'a> {
     bases: Option<[String; 2]>,
     /// Samples in place of control points.
     samples: Option<(usize, usize)>,
+    seconds: Seconds,
     document: SurfaceDocument,
+}
+
+impl<'a> Job<'a> {
+    fn new(
+        grid: &'a PointGrid,
+        fit: &'a SurfaceFit,
+        bases: Option<[String; 2]>,
+        samples: Option<(usize, usize)>,
+        seconds: Seconds,
+    ) -> Self {
+        let mut document = surface_document_of(fit);
+        document.coordinate_names = Some(grid.column_names.clone());
+        if let Some(report) = &mut document.report {
+            let notes = grid.notes.iter().map(|note| format!("reading: {note}"));
+            report.source = Some(grid.source.clone());
+            report.run.choices.splice(0..0, notes);
+            report.run.seconds = Some(seconds);
+        }
+        Self { grid, fit, bases, samples, seconds, document }
+    }
 }
 
 /// Most samples of a surface: beyond, the table would not fit into memory.
 const MOST_SAMPLES: usize = 1_000_000_000;
 
 pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
-    Wanted::new(&arguments.writing, arguments.samples.is_some()).check(&plan::inputs(arguments))?;
+    let wanted =
+        Wanted::new(&arguments.writing, &arguments.iteration.keep, arguments.samples.is_some());
+    wanted.check(&plan::inputs(arguments))?;
     ensure!(
         arguments.samples.is_none_or(|(m, n)| {
             m.min(n) >= 2 && m.checked_mul(n).is_some_and(|count| count <= MOST_SAMPLES)
@@ -71,7 +94,7 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
     );
     signal::listen()?;
     let clock = Instant::now();
-    let Plan { grid, options, bases } = Plan::new(arguments)?;
+    let Plan { grid, options, bases, remarks } = Plan::new(arguments)?;
     let read = clock.elapsed().as_secs_f64();
 
     let unused = [&grid.row_abscissae, &grid.column_abscissae].map(Option::is_some) == [true; 2]
@@ -90,30 +113,20 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
     signal::enter(Stage::Writing);
     progress.finish();
     let (mut fit, blending) = result.map_err(explain)?;
+    fit.report.run.choices.splice(0..0, remarks);
     if unused {
         fit.report.run.choices.push(
             "parameters: those in the file are left aside; --parameters axes takes them".into(),
         );
     }
 
-    let mut document = surface_document_of(&fit);
-    document.blending = blending;
-    document.coordinate_names = Some(grid.column_names.clone());
-    if let Some(report) = &mut document.report {
-        report.source = Some(grid.source.clone());
-        report.run.choices.splice(0..0, grid.notes.iter().map(|note| format!("reading: {note}")));
-        report.run.seconds = Some(Seconds { read, fit: fitted, write: None });
-    }
-    let mut job = Job {
-        grid: &grid,
-        fit: &fit,
-        bases: bases.as_ref().map(|bases| bases.each_ref().map(|basis| described(&**basis))),
-        samples: arguments.samples,
-        document,
-    };
+    let seconds = Seconds { read, fit: fitted, write: None };
+    let bases = bases.as_ref().map(|bases| bases.each_ref().map(|basis| described(&**basis)));
+    let mut job = Job::new(&grid, &fit, bases, arguments.samples, seconds);
+    job.document.blending = blending;
     let report = &fit.report;
     let finish = Finish {
-        wanted: Wanted::new(&arguments.writing, arguments.samples.is_some()),
+        wanted,
         method: arguments.iteration.method,
         run: Run {
             termination: report.run.termination,
@@ -140,9 +153,9 @@ fn explain(error: Error, grid: &PointGrid) -> anyhow::Error {
             second + 1
         ),
         Error::ParametersNotIncreasing { index, value, previous } => anyhow!(
-            "{source}: abscissa {value} (number {}) does not exceed {previous} before it; abscissae \
-             serve as parameters only where they rise along rows and columns: use --parameters chord, \
-             or one rule for each direction, such as chord,axes",
+            "{source}: parameter {value} (number {}) does not exceed {previous} before it; parameters \
+             from a file must rise, and abscissae serve as parameters only where they rise, or fall, \
+             all along: use --parameters chord, or one rule for each direction, such as chord,axes",
             index + 1
         ),
         other => anyhow!("{source}: {other}"),

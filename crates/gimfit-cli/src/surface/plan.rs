@@ -1,12 +1,15 @@
 //! From arguments to a grid and options, with all that can be checked before the run.
 
 use super::arguments::{ClosedChoice, GridParameterRule, SurfaceArguments};
-use crate::arguments::KnotRule;
+use crate::arguments::RuleOrFile;
 use crate::basis::{basis, only_b_splines};
+use crate::curve::knot_placement;
+use crate::input;
 use crate::method::{ensure_kept_fits_fit, method, weight, weight_file};
+use crate::targets::is_standard;
 use anyhow::{Context, bail, ensure};
 use gimfit::basis::BlendingBasis;
-use gimfit::{KnotPlacement, Parameterization, SurfaceOptions};
+use gimfit::{Parameterization, SurfaceOptions, SurfaceWeight};
 use gimfit_io::grids::{GridOptions, PointGrid, read_grid};
 use std::path::Path;
 use std::sync::Arc;
@@ -17,12 +20,20 @@ pub(super) struct Plan {
     pub(super) options: SurfaceOptions,
     /// What is blended in u and v, if no B-splines are.
     pub(super) bases: Option<[Arc<dyn BlendingBasis>; 2]>,
+    /// What was made of the arguments that a reader of the report must know.
+    pub(super) remarks: Vec<String>,
 }
 
 impl Plan {
     pub(super) fn new(arguments: &SurfaceArguments) -> anyhow::Result<Self> {
         let method = method(&arguments.iteration)?;
-        let weight = weight(&arguments.iteration.weight)?;
+        let weight = surface_weight(&arguments.iteration.weight)?;
+        ensure!(
+            arguments.per_direction || matches!(weight, SurfaceWeight::Both(_)),
+            "--weight {}: a weight for each direction goes with --per-direction; a net that moves as \
+             a whole has one",
+            arguments.iteration.weight
+        );
         ensure!(
             matches!(arguments.index_columns.len(), 0 | 2),
             "--index-columns takes two columns with a comma between: that of the rows, then that of \
@@ -36,15 +47,23 @@ impl Plan {
             numbers,
             &grid.source,
         )?;
-        let parameterization = |k: usize| -> anyhow::Result<Option<Parameterization>> {
-            arguments.parameters.map(|rules| parameterization(rules.0[k], k, &grid)).transpose()
+        let mut remarks = Vec::new();
+        let mut parameterization = |k: usize| -> anyhow::Result<Option<Parameterization>> {
+            let Some(choices) = &arguments.parameters else { return Ok(None) };
+            parameterization(&choices.0[k], k, &grid, &mut remarks).map(Some)
+        };
+        let placement = |k: usize| {
+            arguments.knots.as_ref().map(|choices| knot_placement(&choices.0[k])).transpose()
         };
         let bases = blending(arguments, &grid)?;
         let options = SurfaceOptions {
-            degrees: arguments.degree.map_or(SurfaceOptions::default().degrees, |pair| pair.0),
+            degrees: arguments
+                .degree
+                .as_ref()
+                .map_or(SurfaceOptions::default().degrees, |pair| pair.0),
             closed: arguments.closed.each(),
             parameterizations: [parameterization(0)?, parameterization(1)?],
-            knot_placements: [0, 1].map(|k| arguments.knots.map(|rules| placement(rules.0[k]))),
+            knot_placements: [placement(0)?, placement(1)?],
             method,
             weight,
             per_direction: arguments.per_direction,
@@ -53,15 +72,18 @@ impl Plan {
             keep: arguments.iteration.keep.clone(),
         };
         for k in 0..2 {
-            let axes = matches!(options.parameterizations[k], Some(Parameterization::Given(_)));
+            let axes = arguments
+                .parameters
+                .as_ref()
+                .is_some_and(|choices| choices.0[k] == RuleOrFile::Rule(GridParameterRule::Axes));
             ensure!(
                 !(axes && options.closed[k]),
                 "--parameters axes does not tell where a closed direction returns to its start; \
-                 use chord or uniform in {}",
+                 use chord, uniform or a file of numbers in {}",
                 ["u", "v"][k]
             );
         }
-        Ok(Self { grid, options, bases })
+        Ok(Self { grid, options, bases, remarks })
     }
 }
 
@@ -92,8 +114,36 @@ fn blending(
 /// The files to read, by the argument that names them.
 pub(super) fn inputs(arguments: &SurfaceArguments) -> Vec<(&str, &Path)> {
     let mut inputs = vec![("GRID", arguments.grid.as_path())];
-    inputs.extend(weight_file(&arguments.iteration.weight).map(|path| ("--weight", path)));
+    for choice in arguments.parameters.iter().flat_map(|pair| &pair.0) {
+        inputs.extend(file(choice).map(|path| ("--parameters", path)));
+    }
+    for choice in arguments.knots.iter().flat_map(|pair| &pair.0) {
+        inputs.extend(file(choice).map(|path| ("--knots", path)));
+    }
+    let weights = arguments.iteration.weight.split(',').map(str::trim);
+    inputs.extend(weights.filter_map(weight_file).map(|path| ("--weight", path)));
+    // One file for both directions is read twice, which standard input cannot be.
+    inputs.dedup_by(|a, b| a == b && !is_standard(a.1));
     inputs
+}
+
+fn file<R>(choice: &RuleOrFile<R>) -> Option<&Path> {
+    match choice {
+        RuleOrFile::File(path) => Some(path),
+        RuleOrFile::Rule(_) => None,
+    }
+}
+
+/// One weight, or two with a comma between.
+fn surface_weight(text: &str) -> anyhow::Result<SurfaceWeight> {
+    let each: Vec<&str> = text.split(',').map(str::trim).collect();
+    Ok(match each.as_slice() {
+        [both] => SurfaceWeight::Both(weight(both)?),
+        [u, v] => SurfaceWeight::PerDirection([weight(u)?, weight(v)?]),
+        _ => bail!(
+            "--weight {text}: give one value for both directions, or two with a comma between"
+        ),
+    })
 }
 
 fn reading(arguments: &SurfaceArguments) -> GridOptions {
@@ -113,33 +163,40 @@ fn reading(arguments: &SurfaceArguments) -> GridOptions {
 }
 
 fn parameterization(
-    rule: GridParameterRule,
+    choice: &RuleOrFile<GridParameterRule>,
     k: usize,
     grid: &PointGrid,
+    remarks: &mut Vec<String>,
 ) -> anyhow::Result<Parameterization> {
+    let rule = match choice {
+        RuleOrFile::Rule(rule) => rule,
+        RuleOrFile::File(path) => {
+            let names = RuleOrFile::<GridParameterRule>::names();
+            return Ok(Parameterization::Given(input::numbers(path, "--parameters", &names)?));
+        }
+    };
     Ok(match rule {
         GridParameterRule::Chord => Parameterization::Chord,
         GridParameterRule::Centripetal => Parameterization::Centripetal,
         GridParameterRule::Uniform => Parameterization::Uniform,
         GridParameterRule::Axes => {
+            let (direction, lines) = [("u", "rows"), ("v", "columns")][k];
             let abscissae = [&grid.row_abscissae, &grid.column_abscissae][k];
-            let values = abscissae.clone().with_context(|| {
+            let mut values = abscissae.clone().with_context(|| {
                 format!(
-                    "{}: the file gives no abscissae of its {}; use --parameters chord or uniform",
-                    grid.source,
-                    ["rows", "columns"][k]
+                    "{}: the file gives no abscissae of its {lines}; use --parameters chord or \
+                     uniform",
+                    grid.source
                 )
             })?;
+            if values.len() > 1 && values.windows(2).all(|pair| pair[1] < pair[0]) {
+                values.iter_mut().for_each(|value| *value = -*value);
+                remarks.push(format!(
+                    "parameters in {direction}: minus the abscissae of the {lines}, which fall from \
+                     the first to the last"
+                ));
+            }
             Parameterization::Given(values)
         }
     })
-}
-
-fn placement(rule: KnotRule) -> KnotPlacement {
-    match rule {
-        KnotRule::Averaged => KnotPlacement::Averaged,
-        KnotRule::NotAKnot => KnotPlacement::NotAKnot,
-        KnotRule::AtData => KnotPlacement::AtData,
-        KnotRule::Uniform => KnotPlacement::Uniform,
-    }
 }

@@ -55,4 +55,17 @@ impl Product for Job<'_> {
             times.write = Some(seconds);
         }
     }
+
+    fn each_member(
+        &self,
+        visit: &mut dyn FnMut(usize, &mut dyn Product) -> anyhow::Result<()>,
+    ) -> anyhow::Result<()> {
+        for kept in &self.fit.sequence {
+            let iteration = kept.entry.iteration;
+            let fit = self.fit.member(iteration)?;
+            let bases = self.bases.clone();
+            visit(iteration, &mut Job::new(self.grid, &fit, bases, self.samples, self.seconds))?;
+        }
+        Ok(())
+    }
 }

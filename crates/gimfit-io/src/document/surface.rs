@@ -192,6 +192,9 @@ pub struct SurfaceReportData {
     /// The run.
     #[serde(flatten)]
     pub run: RunData,
+    /// Per direction: residuals of the columns as curves in u, then of the rows of what that gave.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stages: Option<[Vec<HistoryRow>; 2]>,
     /// Row and column of the largest residual.
     pub max_residual_index: [usize; 2],
     /// Largest distance of a data point from its foot point.
@@ -216,6 +219,9 @@ impl SurfaceReportData {
             spacing_ratios: report.spacing_ratios,
             per_direction: report.per_direction,
             run: RunData::of(&report.run),
+            stages: report.stages.as_ref().map(|stages| {
+                stages.each_ref().map(|stage| stage.iter().map(HistoryRow::of).collect())
+            }),
             max_residual_index: report.max_residual_index,
             max_deviation: report.max_deviation,
             max_deviation_index: report.max_deviation_index,

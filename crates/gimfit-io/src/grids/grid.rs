@@ -54,12 +54,14 @@ impl PointGrid {
     }
 
     /// Where the point in row `row` and column `column` (both from 0) stands:
-    /// "row 3, column 7 (line 12)", counted from 1 as lines are, or "row 2,
-    /// column 6 (counted from 0)" where the file has no lines.
+    /// "row 3, column 7 (line 12)", counted from 1 as lines are, or "row 3,
+    /// column 7 (counted from 1)" where the file has no lines.
     pub fn point_name(&self, row: usize, column: usize) -> String {
         let (next_row, next_column) = (row.saturating_add(1), column.saturating_add(1));
         let line = match &self.lines {
-            GridLines::Binary => return format!("row {row}, column {column} (counted from 0)"),
+            GridLines::Binary => {
+                return format!("row {next_row}, column {next_column} (counted from 1)");
+            }
             GridLines::Unknown => None,
             GridLines::OfRows(lines) => lines.get(row),
             GridLines::OfPoints(lines) => row
@@ -127,6 +129,6 @@ mod tests {
         grid.lines = GridLines::Unknown;
         assert_eq!(grid.point_name(0, 1), "row 1, column 2");
         grid.lines = GridLines::Binary;
-        assert_eq!(grid.point_name(0, 1), "row 0, column 1 (counted from 0)");
+        assert_eq!(grid.point_name(0, 1), "row 1, column 2 (counted from 1)");
     }
 }

@@ -92,12 +92,13 @@ impl<'a> Errors<'a> {
 }
 
 fn draw_axes(svg: &mut Svg, map: Rect, errors: &Errors<'_>) {
-    let ends = |count: usize| Interval { low: -0.5, high: count as f64 - 0.5 };
+    // Counted from 1, as reports and files have it.
+    let ends = |count: usize| Interval { low: 0.5, high: count as f64 + 0.5 };
     let across = Scale::new(ends(errors.columns), map.x, map.right());
     // The first row at the top, as tables and files have it.
     let down = Scale::new(ends(errors.rows), map.y, map.bottom());
-    let horizontal = Axis::whole(&across, Direction::Across, "column (from 0)");
-    let upright = Axis::whole(&down, Direction::Upward, "row (from 0)");
+    let horizontal = Axis::whole(&across, Direction::Across, "column");
+    let upright = Axis::whole(&down, Direction::Upward, "row");
     plot::draw_axes(svg, map, &horizontal, &upright);
     for (at, _) in &horizontal.marks {
         svg.line((*at, map.bottom()), (*at, map.bottom() + 3.0), style::FRAME, 1.0);

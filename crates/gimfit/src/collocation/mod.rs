@@ -22,7 +22,8 @@ pub use grid::{AcrossCollocation, AlongCollocation, TensorCollocation};
 pub use layout::{ControlLayout, NetLayout};
 pub use spectrum::{
     Eigenvalue, EigenvalueBounds, all_eigenvalues, best_weight, eigenvalues, gauss_seidel_rate,
-    lemma2_weight, rate_with_weight, smallest_eigenvalue, smallest_eigenvalue_of,
+    largest_jacobi_eigenvalue, lemma2_weight, rate_with_weight, smallest_eigenvalue,
+    smallest_eigenvalue_of,
 };
 
 /// What an iteration needs of `A = [B_i(t_j)]`, whatever the geometry behind it. Vectors are flat

@@ -125,7 +125,7 @@ pub fn fit_blending_surface_observed(
         stopping,
         expand: &|control| control,
     };
-    let mut solved = run_net(&setting, observer)?;
+    let (mut solved, stages) = run_net(&setting, observer)?;
     note_near_singularity(&[&u.operator, &v.operator], &mut solved.run);
 
     let scale = size.scale;
@@ -166,6 +166,7 @@ pub fn fit_blending_surface_observed(
         spacing_ratios: [spacing_ratio(&t_u, None), spacing_ratio(&t_v, None)],
         per_direction: options.per_direction,
         run: solved.run,
+        stages,
         max_residual_index: cell(norms.max_index),
         max_deviation: scale.undo(deviation),
         max_deviation_index: cell(deviation_index),

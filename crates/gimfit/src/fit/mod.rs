@@ -5,6 +5,7 @@ mod blending_surface;
 mod curve;
 mod diagnose;
 mod keep;
+mod member;
 mod method;
 mod options;
 mod prepare;
@@ -21,5 +22,6 @@ pub use diagnose::{CurveDiagnosis, diagnose_blending_curve, diagnose_curve};
 pub use keep::KeptFit;
 pub use options::{
     BlendingOptions, BlendingSurfaceOptions, CurveOptions, IterationWeight, Method, SurfaceOptions,
+    SurfaceWeight,
 };
 pub use surface::{SurfaceFit, fit_surface, fit_surface_observed};

@@ -96,6 +96,28 @@ impl Default for CurveOptions {
     }
 }
 
+/// Weight of the difference vectors of a grid, for the methods that have one.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SurfaceWeight {
+    /// One choice for both directions; one per point, row by row, where both run at once.
+    Both(IterationWeight),
+    /// One choice for u and one for v, where one runs after the other: per point means one per row
+    /// in u, one per column in v.
+    PerDirection([IterationWeight; 2]),
+}
+
+impl Default for SurfaceWeight {
+    fn default() -> Self {
+        Self::Both(IterationWeight::Auto)
+    }
+}
+
+impl From<IterationWeight> for SurfaceWeight {
+    fn from(weight: IterationWeight) -> Self {
+        Self::Both(weight)
+    }
+}
+
 /// What a caller chooses for [`fit_blending_curve`](super::fit_blending_curve); the basis gives the
 /// degree.
 #[derive(Debug, Clone, PartialEq)]
@@ -137,7 +159,7 @@ pub struct BlendingSurfaceOptions {
     /// The rule that moves the control points.
     pub method: Method,
     /// Its weight.
-    pub weight: IterationWeight,
+    pub weight: SurfaceWeight,
     /// Whether the columns are run to their limit first, then the rows.
     pub per_direction: bool,
     /// Most steps; per direction, in each.
@@ -153,7 +175,7 @@ impl Default for BlendingSurfaceOptions {
         Self {
             parameterizations: [None, None],
             method: Method::Auto,
-            weight: IterationWeight::Auto,
+            weight: SurfaceWeight::default(),
             per_direction: false,
             iterations: 1000,
             residual: None,
@@ -178,7 +200,7 @@ pub struct SurfaceOptions {
     /// The rule that moves the control points.
     pub method: Method,
     /// Its weight.
-    pub weight: IterationWeight,
+    pub weight: SurfaceWeight,
     /// Whether the columns are run to their limit first, then the rows.
     pub per_direction: bool,
     /// Most steps; per direction, in each.
@@ -197,7 +219,7 @@ impl Default for SurfaceOptions {
             parameterizations: [None, None],
             knot_placements: [None, None],
             method: Method::Auto,
-            weight: IterationWeight::Auto,
+            weight: SurfaceWeight::default(),
             per_direction: false,
             iterations: 1000,
             residual: None,

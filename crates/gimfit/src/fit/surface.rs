@@ -3,7 +3,7 @@
 use super::curve::{finish_parameters, parameterization_name, placement_name};
 use super::solve::{Size, Solved, Task, norm, solve, unscaled};
 use super::surface_method::{Directions, choose_across, choose_along, choose_both};
-use super::{IterationWeight, KeptFit, SurfaceOptions};
+use super::{IterationWeight, KeptFit, SurfaceOptions, SurfaceWeight};
 use crate::Error;
 use crate::collocation::{
     AcrossCollocation, AlongCollocation, CollocationOperator, Interpolation, NetLayout,
@@ -94,7 +94,7 @@ pub fn fit_surface_observed(
     let expand = |control| layout.expand(control, dimension);
     let stopping = size.stopping(options.residual, options.iterations, &mut choices)?;
     let setting = Setting { view, size: &size, directions, options, stopping, expand: &expand };
-    let mut solved = run_net(&setting, observer)?;
+    let (mut solved, stages) = run_net(&setting, observer)?;
     choices.append(&mut solved.run.choices);
     solved.run.choices = choices;
 
@@ -131,6 +131,7 @@ pub fn fit_surface_observed(
         spacing_ratios: [ratio_u, ratio_v],
         per_direction: options.per_direction,
         run: solved.run,
+        stages,
         max_residual_index: cell(norms.max_index),
         max_deviation: scale.undo(max_deviation),
         max_deviation_index: cell(deviation_index),
@@ -252,13 +253,19 @@ pub(super) struct Setting<'a> {
 }
 
 /// Runs the rule on the net, in the order the options say.
-pub(super) fn run_net(setting: &Setting<'_>, observer: &mut dyn Observer) -> Result<Solved, Error> {
+pub(super) fn run_net(
+    setting: &Setting<'_>,
+    observer: &mut dyn Observer,
+) -> Result<(Solved, Option<Stages>), Error> {
     if setting.options.per_direction {
-        per_direction(setting, observer)
+        per_direction(setting, observer).map(|(solved, stages)| (solved, Some(stages)))
     } else {
-        at_once(setting, observer)
+        at_once(setting, observer).map(|solved| (solved, None))
     }
 }
+
+/// The histories of the columns, then of the rows.
+pub(super) type Stages = [Vec<HistoryEntry>; 2];
 
 impl<'a> Setting<'a> {
     fn task(&self, operator: &'a dyn CollocationOperator, data: &'a [f64]) -> Task<'a> {
@@ -279,7 +286,14 @@ fn at_once(setting: &Setting<'_>, observer: &mut dyn Observer) -> Result<Solved,
     let (options, directions) = (setting.options, setting.directions);
     let dimension = setting.view.dimension();
     let gradual = options.keep.iter().copied().max().unwrap_or(0).min(options.iterations);
-    let mut chosen = choose_both(options.method, &options.weight, directions, dimension, gradual)?;
+    let SurfaceWeight::Both(weight) = &options.weight else {
+        return Err(Error::Incompatible {
+            what: "a weight for each direction",
+            with: "both directions at once",
+            why: "a net that moves as a whole has one weight; run one direction after the other",
+        });
+    };
+    let mut chosen = choose_both(options.method, weight, directions, dimension, gradual)?;
     let operator = TensorCollocation::new(directions.u, directions.v, dimension);
     let data = setting.view.points().coordinates();
     let task = Task { keep: &options.keep, ..setting.task(&operator, data) };
@@ -288,7 +302,10 @@ fn at_once(setting: &Setting<'_>, observer: &mut dyn Observer) -> Result<Solved,
 
 /// Runs the columns to their limit, then the rows: the same limit in far fewer steps, since no step
 /// has to serve both directions.
-fn per_direction(setting: &Setting<'_>, observer: &mut dyn Observer) -> Result<Solved, Error> {
+fn per_direction(
+    setting: &Setting<'_>,
+    observer: &mut dyn Observer,
+) -> Result<(Solved, Stages), Error> {
     let (options, directions) = (setting.options, setting.directions);
     if !options.keep.is_empty() {
         return Err(Error::Incompatible {
@@ -297,13 +314,18 @@ fn per_direction(setting: &Setting<'_>, observer: &mut dyn Observer) -> Result<S
             why: "half way through, the net is no fit of the grid; run both directions at once",
         });
     }
-    if matches!(options.weight, IterationWeight::PerPoint(_)) {
-        return Err(Error::Incompatible {
-            what: "a weight per point",
-            with: "one direction after the other",
-            why: "a point has no weight of its own in a direction; run both directions at once",
-        });
-    }
+    let weights = match &options.weight {
+        SurfaceWeight::Both(IterationWeight::PerPoint(_)) => {
+            return Err(Error::Incompatible {
+                what: "a weight per point",
+                with: "one direction after the other",
+                why: "a point has no weight of its own in a direction; give one per row and one per \
+                      column, or run both directions at once",
+            });
+        }
+        SurfaceWeight::Both(weight) => [weight, weight],
+        SurfaceWeight::PerDirection(weights) => weights.each_ref(),
+    };
     let dimension = setting.view.dimension();
     let data = setting.view.points().coordinates();
     let both = TensorCollocation::new(directions.u, directions.v, dimension);
@@ -315,11 +337,11 @@ fn per_direction(setting: &Setting<'_>, observer: &mut dyn Observer) -> Result<S
     let mut work = vec![0.0; data.len()];
     let before = both.difference_vectors(data, data, dimension, &mut work);
 
-    let (method, weight) = (options.method, &options.weight);
-    let mut in_u = choose_across(method, weight, directions, dimension)?;
+    let method = options.method;
+    let mut in_u = choose_across(method, weights[0], directions, dimension)?;
     let task = Task { stopping, ..setting.task(&across, data) };
     let first = solve(&task, &mut in_u, observer)?;
-    let mut in_v = choose_along(method, weight, directions, dimension)?;
+    let mut in_v = choose_along(method, weights[1], directions, dimension)?;
     let task = Task { stopping, ..setting.task(&along, &first.control) };
     let second = solve(&task, &mut in_v, observer)?;
 
@@ -334,18 +356,24 @@ fn per_direction(setting: &Setting<'_>, observer: &mut dyn Observer) -> Result<S
         max_residual: undo(norms.max),
         rms_residual: undo(norms.rms),
     };
-    let mut choices = vec![format!(
-        "directions: one after the other, {} steps in u, {} in v",
-        first.iterations, second_run.iterations
-    )];
-    let named = |name: &'static str, list: Vec<String>| {
-        list.into_iter().map(move |choice| format!("{choice} (in {name})"))
+    let stage = |run: &RunReport| {
+        let start = run.history.first().map_or(0.0, |entry| entry.max_residual);
+        format!("{} steps from {start:.2e} to {:.2e}", run.iterations, run.max_residual)
     };
-    choices.extend(named("u", first.choices));
-    choices.extend(named("v", second_run.choices));
+    let mut choices = vec![format!(
+        "directions: one after the other, each line a curve: the columns in u, {}, then the rows of \
+         what that gave in v, {}",
+        stage(&first),
+        stage(&second_run)
+    )];
+    for (name, list) in [("u", &first.choices), ("v", &second_run.choices)] {
+        choices.extend(list.iter().map(|choice| format!("{choice} (in {name})")));
+    }
     let eigenvalues = first.smallest_eigenvalue.zip(second_run.smallest_eigenvalue);
     let run = RunReport {
         choices,
+        method: second_run.method,
+        extent: second_run.extent,
         iterations,
         iteration_returned: first.iteration_returned + second_run.iteration_returned,
         termination,
@@ -361,9 +389,10 @@ fn per_direction(setting: &Setting<'_>, observer: &mut dyn Observer) -> Result<S
         rms_residual: undo(norms.rms),
         smallest_eigenvalue: eigenvalues.map(|(u, v)| u * v),
         history: vec![entry(0, before), entry(iterations, norms)],
-        ..second_run
     };
-    Ok(Solved { control: second.control, vectors: work, norms, run, sequence: Vec::new() })
+    let solved =
+        Solved { control: second.control, vectors: work, norms, run, sequence: Vec::new() };
+    Ok((solved, [first.history, second_run.history]))
 }
 
 /// How two runs ended, seen as one.

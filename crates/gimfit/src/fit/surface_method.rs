@@ -3,7 +3,7 @@
 use super::method::{ChosenRule, anderson, check_weight, choose, weighted, whole};
 use super::{IterationWeight, Method};
 use crate::Error;
-use crate::collocation::{CollocationMatrix, smallest_eigenvalue_of};
+use crate::collocation::{CollocationMatrix, largest_jacobi_eigenvalue, smallest_eigenvalue_of};
 use crate::iteration::UpdateRule;
 use crate::iteration::update::{
     Across, Along, Both, Chebyshev, GaussSeidel, Jacobi, Pia, Preconditioned, Staged,
@@ -21,6 +21,9 @@ impl Directions<'_> {
         self.u.points() * self.v.points()
     }
 }
+
+/// Products of eigenvalues beyond this diverge; a hundredth above 2, which the estimates may miss.
+const JACOBI_DIVERGES: f64 = 2.02;
 
 /// Prepares a rule that moves the whole net at once.
 pub(super) fn choose_both<'a>(
@@ -59,7 +62,23 @@ pub(super) fn choose_both<'a>(
         }
         Method::Pia => ("pia", Box::new(Pia)),
         Method::Weighted => ("weighted", weighted(weight, &[u, v], &mut smallest, &mut choices)?),
-        Method::Jacobi => ("jacobi", Box::new(Both::new(Jacobi::new(u), Jacobi::new(v), columns))),
+        Method::Jacobi => {
+            let largest = [u, v].map(largest_jacobi_eigenvalue);
+            if largest[0] * largest[1] > JACOBI_DIVERGES {
+                return Err(Error::Incompatible {
+                    what: "jacobi",
+                    with: "this net as a whole",
+                    why: "its largest eigenvalue, the product of those of both directions, passes 2 \
+                          (2.25 for bicubics), so that the run would diverge; run one direction \
+                          after the other, or use gauss-seidel",
+                });
+            }
+            choices.push(format!(
+                "jacobi: largest eigenvalue about {:.3} in u times {:.3} in v, below 2: it converges",
+                largest[0], largest[1]
+            ));
+            ("jacobi", Box::new(Both::new(Jacobi::new(u), Jacobi::new(v), columns)))
+        }
         Method::GaussSeidel => {
             ("gauss-seidel", Box::new(Both::new(GaussSeidel::new(u), GaussSeidel::new(v), columns)))
         }
@@ -115,10 +134,11 @@ pub(super) fn choose_along<'a>(
     let rows = directions.u.points();
     let mut chosen = choose(method, weight, directions.v, rows * dimension, 0)?;
     // A rule that scales and adds whole arrays serves all rows at once, and may remember them.
-    let whole = matches!(
-        method,
-        Method::Pia | Method::Weighted | Method::Chebyshev | Method::Anderson { .. }
-    );
+    let whole = match method {
+        Method::Pia | Method::Chebyshev | Method::Anderson { .. } => true,
+        Method::Weighted => !matches!(weight, IterationWeight::PerPoint(_)),
+        _ => false,
+    };
     if !whole {
         chosen.rule = Box::new(Along::new(chosen.rule, directions.v.points()));
     }

@@ -1,6 +1,7 @@
 //! The account of a surface fit.
 
 use super::RunReport;
+use crate::iteration::HistoryEntry;
 
 /// The account of a surface fit. Pairs hold direction u (rows), then direction v (columns). Lengths
 /// are in the unit of the data.
@@ -24,8 +25,12 @@ pub struct SurfaceReport {
     pub spacing_ratios: [f64; 2],
     /// Whether the rule ran in one direction after the other.
     pub per_direction: bool,
-    /// The run; per direction, the steps of both added up, and a history of the start and the end.
+    /// The run; per direction, the steps of both added up, and a history of the start and the end
+    /// of the whole net: in between it is no fit of the grid.
     pub run: RunReport,
+    /// Per direction: the residuals, step by step, of the columns as curves in u, then of the rows
+    /// of what that gave as curves in v.
+    pub stages: Option<[Vec<HistoryEntry>; 2]>,
     /// Row and column of the point with the largest residual.
     pub max_residual_index: [usize; 2],
     /// Largest distance of a data point from its foot point on the surface.

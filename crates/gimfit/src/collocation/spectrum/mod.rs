@@ -1,9 +1,11 @@
 //! Eigenvalues that decide how fast an iteration runs, and the weights that follow from them.
 
 mod eigenvalues;
+mod jacobi;
 mod weights;
 
 pub use eigenvalues::{Eigenvalue, eigenvalues};
+pub use jacobi::largest_jacobi_eigenvalue;
 pub use weights::{best_weight, lemma2_weight, rate_with_weight};
 
 use super::{CollocationMatrix, DenseCollocation, Factorization};
