@@ -44,8 +44,8 @@ pub(crate) struct Layout {
     pub(crate) main: Rect,
     pub(crate) error: Rect,
     pub(crate) history: Rect,
-    width: f64,
-    bottom: f64,
+    pub(crate) width: f64,
+    pub(crate) bottom: f64,
 }
 
 /// Draws the whole figure.

@@ -79,7 +79,7 @@ pub(super) fn draw(
         message(svg, area, "no points to draw");
         return Looks::default();
     };
-    let stage = Stage::new(area, scene);
+    let stage = Stage::new(area, &scene);
     let names = [0, 1, 2].map(|k| figure.coordinate_name(k));
     stage.draw_box(svg, &names, [0, 1, 2].map(|k| figure.unit(k)), true, notes);
     let places = |rows: Rows<'_>| rows.iter().map(|p| stage.place(p)).collect::<Vec<_>>();
@@ -106,14 +106,20 @@ pub(crate) struct Stage {
 }
 
 impl Stage {
-    pub(crate) fn new(area: Rect, scene: Scene) -> Self {
-        let (across, upward) = equal_scales(
-            scene.cover[0],
-            scene.cover[1],
-            (area.x + AROUND, area.right() - AROUND),
-            (area.bottom() - AROUND, area.y + ABOVE),
-            0.0,
-        );
+    pub(crate) fn new(area: Rect, scene: &Scene) -> Self {
+        let within = Rect {
+            x: area.x + AROUND,
+            y: area.y + ABOVE,
+            width: area.width - 2.0 * AROUND,
+            height: area.height - AROUND - ABOVE,
+        };
+        Self::filling(within, scene)
+    }
+
+    /// The same view without room for axes.
+    pub(crate) fn filling(area: Rect, scene: &Scene) -> Self {
+        let [x, y] = scene.cover;
+        let (across, upward) = equal_scales(x, y, area.across(), area.upward(), 0.0);
         Self { view: scene.view, sides: scene.sides, across, upward }
     }
 

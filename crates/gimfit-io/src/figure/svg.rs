@@ -136,6 +136,8 @@ impl Tag<'_> {
 #[derive(Default)]
 pub(crate) struct Path {
     data: String,
+    /// Where the last outline in tenths began, in tenths.
+    at: Option<(i64, i64)>,
 }
 
 impl Path {
@@ -176,18 +178,46 @@ impl Path {
         self.data.push('z');
     }
 
-    /// A closed polygon; steps from corner to corner take fewer bytes than
-    /// their places.
-    pub(crate) fn polygon(&mut self, corners: &[(f64, f64)]) {
-        let mut at: Option<(f64, f64)> = None;
-        for p in corners {
-            match at {
-                None => self.move_to(*p),
-                Some(at) => self.command('l', &[p.0 - at.0, p.1 - at.1]),
-            }
-            at = Some(*p);
-        }
+    /// A closed polygon in whole tenths, told from the start of the one before:
+    /// for thousands of small ones. Of a path that holds nothing else.
+    pub(crate) fn polygon_in_tenths(&mut self, corners: &[(f64, f64)]) {
+        self.steps_in_tenths(corners);
         self.data.push('z');
+    }
+
+    /// Lines through `points` in whole tenths; a point that is no number ends
+    /// one line before the next. Of a path that holds nothing else.
+    pub(crate) fn lines_in_tenths(&mut self, points: &[(f64, f64)]) {
+        for line in points.split(|p| p.0.is_nan() || p.1.is_nan()) {
+            if line.len() > 1
+                && let Some(end) = self.steps_in_tenths(line)
+            {
+                self.at = Some(end);
+            }
+        }
+    }
+
+    /// Steps from corner to corner; returns the last.
+    fn steps_in_tenths(&mut self, corners: &[(f64, f64)]) -> Option<(i64, i64)> {
+        // Far outside any picture, yet within what every viewer can hold.
+        let tenths = |value: f64| (10.0 * value.clamp(-1.0e6, 1.0e6)).round() as i64;
+        let mut corners = corners.iter().map(|p| (tenths(p.0), tenths(p.1)));
+        let start = corners.next()?;
+        let mut at = self.at.unwrap_or_default();
+        // Pairs after `m` are steps; at the start of a path it means a place all the same.
+        self.data.push('m');
+        self.at = Some(start);
+        let mut first = true;
+        for p in std::iter::once(start).chain(corners) {
+            let step = (p.0 - at.0, p.1 - at.1);
+            if !first && step == (0, 0) {
+                continue;
+            }
+            push_tenths(&mut self.data, step.0, !first);
+            push_tenths(&mut self.data, step.1, true);
+            (at, first) = (p, false);
+        }
+        Some(at)
     }
 
     /// A stroke from `p` to the right.
@@ -208,6 +238,24 @@ impl Path {
 
     pub(crate) fn data(&self) -> &str {
         &self.data
+    }
+}
+
+/// Appends a number of tenths, after a space where one is needed.
+fn push_tenths(out: &mut String, tenths: i64, spaced: bool) {
+    if tenths < 0 {
+        out.push('-');
+    } else if spaced {
+        out.push(' ');
+    }
+    let magnitude = tenths.unsigned_abs();
+    let (whole, rest) = (magnitude / 10, magnitude % 10);
+    if whole > 0 || rest == 0 {
+        out.push_str(&whole.to_string());
+    }
+    if rest > 0 {
+        out.push('.');
+        out.push(char::from(b'0' + rest as u8));
     }
 }
 
@@ -271,6 +319,26 @@ mod tests {
         assert_eq!(number(0.05), "0.05");
         assert_eq!(number(f64::NAN), "0");
         assert_eq!(number(f64::INFINITY), "1000000");
+    }
+
+    #[test]
+    fn outlines_in_tenths_are_told_from_one_another() {
+        let mut path = Path::default();
+        path.polygon_in_tenths(&[(10.0, 20.0), (10.5, 20.0), (10.5, 19.44)]);
+        path.polygon_in_tenths(&[(9.0, 20.1), (9.0, 20.1), (8.9, 22.0)]);
+        assert_eq!(path.data(), "m10 20 .5 0 0-.6zm-1 .1-.1 1.9z");
+        let mut path = Path::default();
+        let gap = (f64::NAN, 0.0);
+        path.lines_in_tenths(&[
+            (1.0, 1.0),
+            (2.0, 2.0),
+            gap,
+            (5.0, 5.0),
+            gap,
+            (3.0, 2.0),
+            (3.0, 3.0),
+        ]);
+        assert_eq!(path.data(), "m1 1 1 1m1 0 0 1");
     }
 
     #[test]

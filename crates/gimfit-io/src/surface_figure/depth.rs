@@ -54,29 +54,33 @@ impl DepthMap {
     }
 
     fn lay_triangle(&mut self, corners: [Spot; 3], number: u32) {
-        if !corners.iter().all(Spot::is_number) {
-            return;
-        }
         let [a, b, c] = corners.map(|spot| self.cell(spot.at));
         let area = (b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0);
-        if area.abs() < 1.0e-12 {
-            return;
-        }
         let depths = corners.map(|spot| spot.depth);
-        let rows = centres(a.1.min(b.1).min(c.1), a.1.max(b.1).max(c.1), self.rows);
-        for row in rows {
-            let y = row as f64 + 0.5;
-            let (from, to) = span([a, b, c], y);
-            for column in centres(from, to, self.columns) {
-                let x = column as f64 + 0.5;
-                let wb = ((x - a.0) * (c.1 - a.1) - (y - a.1) * (c.0 - a.0)) / area;
-                let wc = ((b.0 - a.0) * (y - a.1) - (b.1 - a.1) * (x - a.0)) / area;
-                let depth = (1.0 - wb - wc) * depths[0] + wb * depths[1] + wc * depths[2];
-                let cell = &mut self.cells[row * self.columns + column];
-                if depth > cell.0 {
-                    *cell = (depth, number);
-                }
+        let (columns, rows) = (self.columns, self.rows);
+        let cells = &mut self.cells;
+        each_cell_of(corners, [a, b, c], [columns, rows], |x, y, cell| {
+            let wb = ((x - a.0) * (c.1 - a.1) - (y - a.1) * (c.0 - a.0)) / area;
+            let wc = ((b.0 - a.0) * (y - a.1) - (b.1 - a.1) * (x - a.0)) / area;
+            let depth = (1.0 - wb - wc) * depths[0] + wb * depths[1] + wc * depths[2];
+            let cell = &mut cells[cell];
+            if depth > cell.0 {
+                *cell = (depth, number);
             }
+        });
+    }
+
+    /// Number of cells.
+    pub(super) fn len(&self) -> usize {
+        self.cells.len()
+    }
+
+    /// Calls `visit` with each cell whose centre a facet with these corners covers.
+    pub(super) fn each_cell(&self, corners: [Spot; 4], mut visit: impl FnMut(usize)) {
+        let [a, b, c, d] = corners;
+        for corners in [[a, b, c], [a, c, d]] {
+            let places = corners.map(|spot| self.cell(spot.at));
+            each_cell_of(corners, places, [self.columns, self.rows], |_, _, cell| visit(cell));
         }
     }
 
@@ -108,6 +112,26 @@ impl DepthMap {
             }
         }
         seen
+    }
+}
+
+/// Calls `visit` with the centre and the number of each cell that a triangle covers.
+fn each_cell_of(
+    corners: [Spot; 3],
+    [a, b, c]: [Px; 3],
+    [columns, rows]: [usize; 2],
+    mut visit: impl FnMut(f64, f64, usize),
+) {
+    let area = (b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0);
+    if area.abs() < 1.0e-12 || !corners.iter().all(Spot::is_number) {
+        return;
+    }
+    for row in centres(a.1.min(b.1).min(c.1), a.1.max(b.1).max(c.1), rows) {
+        let y = row as f64 + 0.5;
+        let (from, to) = span([a, b, c], y);
+        for column in centres(from, to, columns) {
+            visit(column as f64 + 0.5, y, row * columns + column);
+        }
     }
 }
 

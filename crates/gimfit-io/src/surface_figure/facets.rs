@@ -55,14 +55,47 @@ pub(super) fn draw(svg: &mut Svg, mesh: &Placed, map: &DepthMap) {
         .iter()
         .map(|facet| (Shade::of(facet.normal, front_is_toward), facet.outline()))
         .collect();
-    for run in shaded.chunk_by(|a, b| a.0 == b.0) {
-        let mut path = Path::default();
-        for (_, outline) in run {
-            path.polygon(outline);
+    let mut order = Order::new(map);
+    let mut paths: Vec<(Shade, Path)> = Vec::new();
+    for (facet, (shade, outline)) in drawn.iter().zip(&shaded) {
+        // The latest path of this shade will do unless a later one lies under the facet.
+        let under = order.under(facet.spots);
+        let same = paths.iter().rposition(|path| path.0 == *shade);
+        let place = same.filter(|place| *place >= under).unwrap_or(paths.len());
+        if place == paths.len() {
+            paths.push((*shade, Path::default()));
         }
-        if let Some((shade, _)) = run.first() {
-            svg.tag("path").attribute("d", path.data()).attribute("fill", &shade.colour()).end();
+        if let Some((_, path)) = paths.get_mut(place) {
+            path.polygon_in_tenths(outline);
         }
+        order.lay(facet.spots, place);
+    }
+    for (shade, path) in &paths {
+        svg.tag("path").attribute("d", path.data()).attribute("fill", &shade.colour()).end();
+    }
+}
+
+/// Which path was last drawn where.
+struct Order<'a> {
+    map: &'a DepthMap,
+    last: Vec<u32>,
+}
+
+impl<'a> Order<'a> {
+    fn new(map: &'a DepthMap) -> Self {
+        Self { map, last: vec![0; map.len()] }
+    }
+
+    /// The last path drawn under a facet with these corners.
+    fn under(&self, corners: [Spot; 4]) -> usize {
+        let mut last = 0;
+        self.map.each_cell(corners, |cell| last = last.max(self.last[cell]));
+        last as usize
+    }
+
+    fn lay(&mut self, corners: [Spot; 4], path: usize) {
+        let last = &mut self.last;
+        self.map.each_cell(corners, |cell| last[cell] = last[cell].max(path as u32));
     }
 }
 

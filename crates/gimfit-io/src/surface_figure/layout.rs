@@ -1,7 +1,7 @@
 //! The figure as a whole.
 
 use super::panel_surface::{self, Main};
-use super::{SurfaceFigure, panel_map};
+use super::{SurfaceFigure, family, panel_map};
 use crate::figure::layout::{
     MAIN_HEIGHT, MAIN_WIDTH, WHOLE_WIDTH, WIDE_ASPECT, WIDE_HEIGHT, place, whole, whole_width,
     wrapped_caption,
@@ -23,13 +23,21 @@ pub(super) fn surface_figure(figure: &SurfaceFigure<'_>) -> String {
     let (caption, top) = wrapped_caption(figure.caption, width);
     let rows = |entries| legend::rows(entries, main_width);
     let legend_rows = rows(panel_surface::legend(figure, 1.0)).len();
-    let layout = place(main_width, main_height, under, top, legend_rows, width);
+    let mut layout = place(main_width, main_height, under, top, legend_rows, width);
 
     let mut svg = Svg::default();
-    let entries = panel_surface::draw(&mut svg, layout.main, figure, main, &mut notes);
+    let entries = panel_surface::draw(&mut svg, layout.main, figure, &main, &mut notes);
     legend::draw(&mut svg, layout.main, &rows(entries));
     panel_map::draw(&mut svg, layout.error, figure, &mut notes);
     panel_history::draw(&mut svg, layout.history, figure.history, figure.extent, &mut notes);
+    if let Some(step) = figure.stages {
+        notes.add(format!(
+            "history up to step {step} that of the columns as curves, then that of the rows of what they gave"
+        ));
+    }
+    let sides = (layout.main.x, layout.error.right().max(layout.main.right()), layout.bottom);
+    family::draw(&mut svg, sides, figure, &main, &mut notes);
+    layout.bottom += family::height(figure);
     let body = svg.finish();
     whole(figure.title, &layout, &caption, &notes, &body)
 }

@@ -3,8 +3,7 @@
 use super::depth::{DepthMap, Spot};
 use super::panel_surface::Placed;
 use crate::figure::decimate::{Px, thin_polyline};
-use crate::figure::layers;
-use crate::figure::svg::Svg;
+use crate::figure::svg::{Path, Svg};
 
 /// Lines are looked at in steps of this length.
 const STEP: f64 = 1.5;
@@ -56,10 +55,19 @@ pub(super) struct Pen {
 
 impl Pen {
     fn draw(self, svg: &mut Svg, points: &[Px]) {
-        let thinned = thin_polyline(points, MOST_VERTICES);
-        svg.tag("g").number("opacity", self.opacity).open();
-        layers::stroke(svg, &layers::polyline(&thinned.points), self.colour, self.width);
-        svg.close("g");
+        let mut path = Path::default();
+        path.lines_in_tenths(&thin_polyline(points, MOST_VERTICES).points);
+        if path.is_empty() {
+            return;
+        }
+        svg.tag("path")
+            .attribute("d", path.data())
+            .attribute("fill", "none")
+            .attribute("stroke", self.colour)
+            .number("stroke-width", self.width)
+            .attribute("stroke-linejoin", "round")
+            .number("opacity", self.opacity)
+            .end();
     }
 }
 

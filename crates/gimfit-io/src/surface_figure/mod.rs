@@ -31,6 +31,8 @@
 //!     residuals: &[0.0; 6],
 //!     extent: 2.4,
 //!     history: &[(0, 0.0, 0.0)],
+//!     stages: None,
+//!     sequence: &[],
 //! });
 //! let png = svg_to_png(&svg, 2.0)?;
 //! assert!(png.starts_with(b"\x89PNG"));
@@ -42,6 +44,7 @@ mod colour_bar;
 mod colours;
 mod depth;
 mod facets;
+mod family;
 mod grid;
 mod layout;
 mod lines;
@@ -108,6 +111,22 @@ pub struct SurfaceFigure<'a> {
     pub extent: f64,
     /// Iteration, largest residual and root mean square residual.
     pub history: &'a [(usize, f64, f64)],
+    /// The step after which the history is that of the rows of what the
+    /// columns gave, where one direction ran after the other.
+    pub stages: Option<usize>,
+    /// Fits of earlier iterations, drawn side by side under the others.
+    pub sequence: &'a [Member<'a>],
+}
+
+/// A fit of an earlier iteration.
+#[derive(Clone, Copy, Debug)]
+pub struct Member<'a> {
+    /// Steps taken.
+    pub iteration: usize,
+    /// Samples of its surface, as those of the final one.
+    pub mesh_points: &'a [f64],
+    /// Its distance from each data point.
+    pub residuals: &'a [f64],
 }
 
 /// Draws `figure` as SVG.

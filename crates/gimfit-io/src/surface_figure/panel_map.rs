@@ -39,10 +39,8 @@ pub(super) fn draw(svg: &mut Svg, area: Rect, figure: &SurfaceFigure<'_>, notes:
         message(svg, map, if zeros > 0 { "all errors are 0" } else { "no residuals" });
         return;
     };
-    draw_cells(svg, map, &errors, &|error| {
-        let (at, _) = scale.at(error);
-        colours::step((bar.bottom() - at) / bar.height)
-    });
+    let step = |error| colours::step((bar.bottom() - scale.at(error).0) / bar.height);
+    draw_cells(svg, map, &errors, &step, "errors");
     colour_bar::draw(svg, bar, &scale);
     if zeros > 0 {
         colour_bar::draw_zero(svg, bar);
@@ -61,7 +59,7 @@ pub(super) fn draw(svg: &mut Svg, area: Rect, figure: &SurfaceFigure<'_>, notes:
 }
 
 /// Residuals as whole rows, and how many of them make a cell.
-struct Errors<'a> {
+pub(super) struct Errors<'a> {
     rows: usize,
     columns: usize,
     values: &'a [f64],
@@ -69,7 +67,7 @@ struct Errors<'a> {
 }
 
 impl<'a> Errors<'a> {
-    fn of(figure: &SurfaceFigure<'a>) -> Option<Self> {
+    pub(super) fn of(figure: &SurfaceFigure<'a>) -> Option<Self> {
         let [rows, columns] = figure.data_shape;
         let rows = figure.residuals.len().checked_div(columns)?.min(rows);
         let values = figure.residuals.get(..rows * columns)?;
@@ -108,8 +106,15 @@ fn draw_axes(svg: &mut Svg, map: Rect, errors: &Errors<'_>) {
     }
 }
 
-/// Draws the cells, each colour at once, as strokes along the rows.
-fn draw_cells(svg: &mut Svg, map: Rect, errors: &Errors<'_>, step: &dyn Fn(f64) -> usize) {
+/// Draws the cells, each colour at once, as strokes along the rows; `id` must be the only one of
+/// its name in the figure.
+pub(super) fn draw_cells(
+    svg: &mut Svg,
+    map: Rect,
+    errors: &Errors<'_>,
+    step: &dyn Fn(f64) -> usize,
+    id: &str,
+) {
     let cells = [0, 1].map(|k| [errors.rows, errors.columns][k].div_ceil(errors.block[k]));
     // One path for each colour, and the last one for zeros.
     let mut paths: Vec<Path> = Vec::new();
@@ -132,7 +137,7 @@ fn draw_cells(svg: &mut Svg, map: Rect, errors: &Errors<'_>, step: &dyn Fn(f64) 
     // One unit to a cell makes for short numbers.
     let y = map.y + 0.5 * height;
     let transform = format!("translate({:.4} {y:.4}) scale({width:.6} {height:.6})", map.x);
-    plot::open_clipped(svg, map, 0.0, "errors");
+    plot::open_clipped(svg, map, 0.0, id);
     svg.tag("g")
         .attribute("transform", &transform)
         .attribute("shape-rendering", "crispEdges")

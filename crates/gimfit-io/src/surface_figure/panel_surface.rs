@@ -15,7 +15,7 @@ use crate::figure::ticks::Direction;
 use crate::figure::{message, style, text};
 
 /// Most points of each grid that are drawn.
-const MOST_OF_MESH: usize = 9000;
+const MOST_OF_MESH: usize = 2700;
 const MOST_OF_DATA: usize = 1600;
 
 /// Larger control nets would hide the surface.
@@ -91,7 +91,7 @@ pub(super) fn draw(
     svg: &mut Svg,
     area: Rect,
     figure: &SurfaceFigure<'_>,
-    main: Main,
+    main: &Main,
     notes: &mut Notes,
 ) -> Vec<Entry> {
     let names = figure.axis_names();
@@ -101,7 +101,7 @@ pub(super) fn draw(
             Vec::new()
         }
         Main::Plane([x, y]) => {
-            let (sx, sy) = equal_scales(x, y, area.across(), area.upward(), INSET);
+            let (sx, sy) = equal_scales(*x, *y, area.across(), area.upward(), INSET);
             let horizontal = Axis::linear(&sx, Direction::Across, &names[0], 0);
             let upright = Axis::linear(&sy, Direction::Upward, &names[1], 0);
             notes.offset(&[&horizontal, &upright]);

@@ -78,6 +78,8 @@ impl Sample {
             residuals: &self.residuals,
             extent: 2.0,
             history: &self.history,
+            stages: None,
+            sequence: &[],
         }
     }
 
@@ -98,7 +100,7 @@ fn checked(figure: &SurfaceFigure<'_>) -> String {
 
 /// Number of closed outlines.
 fn facets(svg: &str) -> usize {
-    svg.matches("z\"").count() + svg.matches("zM").count()
+    svg.matches("z\"").count() + svg.matches("zM").count() + svg.matches("zm").count()
 }
 
 #[test]
@@ -335,4 +337,31 @@ fn endless_text_is_cut() {
     figure.caption = &long;
     figure.coordinate_names = &names;
     assert!(checked(&figure).len() < 500_000);
+}
+
+#[test]
+fn kept_fits_are_drawn_side_by_side_with_their_errors() {
+    for dimension in 1..4 {
+        let sample = Sample::waves(dimension, [12, 10]);
+        let alone = sample.svg();
+        let figure = sample.figure();
+        let member = |iteration| Member {
+            iteration,
+            mesh_points: figure.mesh_points,
+            residuals: figure.residuals,
+        };
+        let family: Vec<Member<'_>> = (0..9).map(member).collect();
+        for count in [1, 4, 9] {
+            let svg = checked(&SurfaceFigure { sequence: &family[..count], ..figure });
+            assert_eq!(svg.matches("id=\"kept-").count(), count.min(6));
+            assert_eq!(svg.contains("6 of 9 kept fits drawn"), count == 9);
+            assert!(facets(&svg) > facets(&alone));
+            // The first and the last are always among them.
+            assert!(
+                svg.contains("iteration 0:") && svg.contains(&format!("iteration {}:", count - 1))
+            );
+        }
+        let empty = Member { iteration: 3, mesh_points: &[], residuals: &[] };
+        assert!(checked(&SurfaceFigure { sequence: &[empty], ..figure }).contains("iteration 3:"));
+    }
 }
