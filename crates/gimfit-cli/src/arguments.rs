@@ -1,6 +1,7 @@
 //! What can be typed, as clap reads it. Values that mean one of several things, such as a rule or a
 //! file, are told apart here.
 
+use crate::evaluate::SampleCount;
 use crate::surface::SurfaceArguments;
 use crate::values;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -28,7 +29,7 @@ pub(crate) enum Command {
     Surface(Box<SurfaceArguments>),
     /// Tell how a fit would go, before any run: spectrum, steps of each method, what is to blame
     Diagnose(Box<DiagnoseArguments>),
-    /// Sample a fitted curve
+    /// Sample a fitted curve or surface
     Evaluate(EvaluateArguments),
     /// Tell what a file holds
     Info(InfoArguments),
@@ -374,20 +375,21 @@ pub(crate) enum MethodChoice {
 written; 130 interrupted, nothing half-written is left.")]
 #[command(group(clap::ArgGroup::new("where").required(true).args(["samples", "at"])))]
 pub(crate) struct EvaluateArguments {
-    /// Document of a fitted curve (.json); - for standard input
+    /// Document of a fitted curve or surface (.json); - for standard input
     #[arg(value_name = "FILE")]
     pub(crate) document: PathBuf,
 
-    /// Number of samples at equal steps of the parameter, both ends included
-    #[arg(long, value_name = "N", value_parser = values::samples)]
-    pub(crate) samples: Option<usize>,
+    /// Number of samples at equal steps of the parameter, ends included; for a surface one in u and
+    /// one in v, such as 100x80
+    #[arg(long, value_name = "N|MxN", value_parser = values::sample_count)]
+    pub(crate) samples: Option<SampleCount>,
 
-    /// File of parameters to evaluate at; - for standard input. On a closed curve they may lie
-    /// beyond the domain
+    /// File of parameters to evaluate at, for a surface of pairs u,v; - for standard input. Where
+    /// the shape is closed they may lie beyond the domain
     #[arg(long, value_name = "FILE")]
     pub(crate) at: Option<PathBuf>,
 
-    /// Derivatives to add, up to this order
+    /// Derivatives to add, up to this order; for a surface all partial ones
     #[arg(long, default_value_t = 0, value_name = "K", value_parser = values::derivatives)]
     pub(crate) derivatives: usize,
 

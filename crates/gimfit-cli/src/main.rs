@@ -17,6 +17,7 @@ mod outputs;
 mod progress;
 mod report_text;
 mod reproduce;
+mod shape;
 mod signal;
 mod surface;
 mod targets;

@@ -1,6 +1,8 @@
 //! Values on the command line, checked where they are read.
 
+use crate::evaluate::SampleCount;
 use gimfit::knots::MAX_DEGREE;
+use gimfit_io::grids::parse_shape;
 use std::str::FromStr;
 
 /// Most samples of a curve: beyond, the table would not fit into memory.
@@ -27,10 +29,21 @@ pub(crate) fn samples(text: &str) -> Result<usize, String> {
     within(text, 1, MOST_SAMPLES)
 }
 
+/// A number of samples of a curve, or one in u and one in v of a surface.
+pub(crate) fn sample_count(text: &str) -> Result<SampleCount, String> {
+    if text.contains(['x', 'X', ',']) {
+        let (m, n) = parse_shape(text).map_err(|error| error.to_string())?;
+        return Ok(SampleCount::Surface(m, n));
+    }
+    samples(text).map(SampleCount::Curve)
+}
+
 /// A highest derivative.
 pub(crate) fn derivatives(text: &str) -> Result<usize, String> {
     within(text, 0, MAX_DEGREE).map_err(|error| {
-        format!("{error}, the highest degree: derivatives above the degree of a curve are zero")
+        format!(
+            "{error}, the highest degree: derivatives of polynomials above their degree are zero"
+        )
     })
 }
 

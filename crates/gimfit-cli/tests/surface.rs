@@ -59,7 +59,8 @@ fn the_published_surface_comes_out_of_the_program() {
     let info = gimfit(at, "info fit.json").code(0);
     assert!(text(&info.get_output().stdout).contains("open surface"));
     let refused = gimfit(at, "evaluate fit.json --samples 5").code(2);
-    assert!(text(&refused.get_output().stderr).contains("holds a surface"));
+    let message = text(&refused.get_output().stderr);
+    assert!(message.contains("holds a surface") && message.contains("5x5"), "{message}");
 }
 
 #[test]

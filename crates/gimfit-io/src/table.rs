@@ -1,6 +1,6 @@
 //! CSV tables of control points and of samples.
 
-use gimfit::Curve;
+use gimfit::{Curve, Surface};
 use std::io::{self, Write};
 
 /// Writes the stored control points, a row each, under the names of the coordinates.
@@ -13,7 +13,7 @@ pub fn write_control_points(
     names: &[String],
 ) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
-    table.write_record(coordinate_names(curve, names)).map_err(io_error)?;
+    table.write_record(coordinate_names(curve.dimension(), names)).map_err(io_error)?;
     for point in curve.control_points().iter() {
         table.write_record(point.iter().map(|x| format!("{x:?}"))).map_err(io_error)?;
     }
@@ -32,7 +32,7 @@ pub fn write_samples(
     order: usize,
     names: &[String],
 ) -> io::Result<()> {
-    let names = coordinate_names(curve, names);
+    let names = coordinate_names(curve.dimension(), names);
     let mut table = csv::Writer::from_writer(out);
     let derived = (1..=order).flat_map(|k| names.iter().map(move |name| format!("d{k} {name}")));
     table
@@ -44,6 +44,46 @@ pub fn write_samples(
             .derivatives_into(t, order, &mut values)
             .map_err(|error| io::Error::new(io::ErrorKind::InvalidInput, error))?;
         let row = std::iter::once(&t).chain(&values).map(|x| format!("{x:?}"));
+        table.write_record(row).map_err(io_error)?;
+    }
+    table.flush()
+}
+
+/// Orders (a, b) of the partial derivatives up to order `order` in all, those of lower order first,
+/// of one order those with more of u first.
+pub fn partials(order: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..=order).flat_map(|k| (0..=k).map(move |b| (k - b, b)))
+}
+
+/// Writes points and all partial derivatives up to order `order` at pairs of parameters, a row each:
+/// `u`, `v`, the coordinates, then `du x`, `du y`, ..., `dv x`, ..., `duu x`, `duv x`, ...
+///
+/// # Errors
+/// What the writer says; [`io::ErrorKind::InvalidInput`] for a parameter outside the domain.
+pub fn write_surface_samples(
+    out: &mut dyn Write,
+    surface: &Surface,
+    parameters: impl Iterator<Item = [f64; 2]>,
+    order: usize,
+    names: &[String],
+) -> io::Result<()> {
+    let (dimension, size) = (surface.dimension(), order + 1);
+    let names = coordinate_names(dimension, names);
+    let mut table = csv::Writer::from_writer(out);
+    let derived = partials(order).skip(1).flat_map(|(a, b)| {
+        let which = "u".repeat(a) + &"v".repeat(b);
+        names.iter().map(move |name| format!("d{which} {name}"))
+    });
+    let head = ["u".to_owned(), "v".to_owned()].into_iter().chain(names.clone()).chain(derived);
+    table.write_record(head).map_err(io_error)?;
+    let mut values = vec![0.0; size * size * dimension];
+    for [u, v] in parameters {
+        surface
+            .derivatives_into(u, v, order, &mut values)
+            .map_err(|error| io::Error::new(io::ErrorKind::InvalidInput, error))?;
+        let known =
+            partials(order).flat_map(|(a, b)| &values[(a * size + b) * dimension..][..dimension]);
+        let row = [&u, &v].into_iter().chain(known).map(|x| format!("{x:?}"));
         table.write_record(row).map_err(io_error)?;
     }
     table.flush()
@@ -78,8 +118,7 @@ pub fn write_rows<'a>(
     table.flush()
 }
 
-fn coordinate_names(curve: &Curve, names: &[String]) -> Vec<String> {
-    let dimension = curve.dimension();
+fn coordinate_names(dimension: usize, names: &[String]) -> Vec<String> {
     if names.len() == dimension {
         return names.to_vec();
     }

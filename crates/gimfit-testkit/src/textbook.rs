@@ -29,6 +29,25 @@ pub fn curve_point(u: &[f64], p: usize, control: &[Vec<f64>], t: f64) -> Vec<f64
     point
 }
 
+/// The point of a rational curve, from the definition; `weights` holds one per control point.
+#[must_use]
+pub fn rational_curve_point(
+    u: &[f64],
+    p: usize,
+    control: &[Vec<f64>],
+    weights: &[f64],
+    t: f64,
+) -> Vec<f64> {
+    let lifted: Vec<Vec<f64>> = control
+        .iter()
+        .zip(weights)
+        .map(|(row, w)| row.iter().map(|x| w * x).chain([*w]).collect())
+        .collect();
+    let mut point = curve_point(u, p, &lifted, t);
+    let sum = point.pop().unwrap_or(1.0);
+    point.iter().map(|x| x / sum).collect()
+}
+
 /// The collocation matrix `[B_i(t_j)]`, a row per parameter.
 #[must_use]
 pub fn collocation_matrix(u: &[f64], p: usize, parameters: &[f64]) -> Vec<Vec<f64>> {

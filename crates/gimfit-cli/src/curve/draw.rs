@@ -41,8 +41,7 @@ pub(super) fn figure(job: &Job<'_>) -> String {
         .sequence
         .iter()
         .filter_map(|kept| {
-            let earlier =
-                gimfit::Curve::new(curve.knots().clone(), kept.control_points.clone()).ok()?;
+            let earlier = curve.with_control_points(kept.control_points.clone()).ok()?;
             Some((kept.entry.iteration, sample(&earlier, &parameters)))
         })
         .collect();

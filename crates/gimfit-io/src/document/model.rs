@@ -87,7 +87,7 @@ impl CurveGeometry {
             periodic: curve.is_periodic(),
             knots: curve.knots().values().to_vec(),
             control_points: curve.control_points().into(),
-            weights: None,
+            weights: curve.rational_weights().map(<[f64]>::to_vec),
         }
     }
 
@@ -104,13 +104,6 @@ impl CurveGeometry {
     /// # Errors
     /// As [`CurveGeometry::curve`].
     pub fn curve_with(&self, control_points: &PointRows) -> Result<Curve, Error> {
-        if self.weights.is_some() {
-            return Err(Error::Incompatible {
-                what: "weights",
-                with: "this version of gimfit",
-                why: "rational curves cannot be evaluated yet",
-            });
-        }
         if control_points.dimension != self.dimension {
             return Err(Error::WrongCount {
                 what: "coordinates per control point",
@@ -124,7 +117,11 @@ impl CurveGeometry {
         } else {
             KnotVector::open(self.degree, self.knots.clone())?
         };
-        Curve::new(knots, Points::new(self.dimension, control_points.values.clone())?)
+        let points = Points::new(self.dimension, control_points.values.clone())?;
+        match &self.weights {
+            None => Curve::new(knots, points),
+            Some(weights) => Curve::rational(knots, points, weights.clone()),
+        }
     }
 }
 

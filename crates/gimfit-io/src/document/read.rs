@@ -31,9 +31,7 @@ pub enum DocumentError {
         problem: String,
     },
     /// A surface where a curve was wanted.
-    #[error(
-        "{name} holds a surface, and this is for curves; gimfit surface writes samples of a surface with --samples"
-    )]
+    #[error("{name} holds a surface, and this is for curves")]
     Surface {
         /// The file.
         name: String,

@@ -107,7 +107,9 @@ impl SurfaceGeometry {
             periodic: surface.is_periodic(),
             knots: surface.knots().each_ref().map(|knots| knots.values().to_vec()),
             control_points: rows(net.points().coordinates(), net.shape()[1], dimension),
-            weights: None,
+            weights: surface
+                .rational_weights()
+                .map(|weights| weights.chunks(net.shape()[1]).map(<[f64]>::to_vec).collect()),
         }
     }
 
@@ -124,13 +126,6 @@ impl SurfaceGeometry {
     /// # Errors
     /// As [`SurfaceGeometry::surface`].
     pub fn surface_with(&self, control_points: &[PointRows]) -> Result<Surface, Error> {
-        if self.weights.is_some() {
-            return Err(Error::Incompatible {
-                what: "weights",
-                with: "this version of gimfit",
-                why: "rational surfaces cannot be evaluated yet",
-            });
-        }
         let columns = control_points.first().map_or(0, |row| row.values.len());
         for row in control_points {
             if row.dimension != self.dimension || row.values.len() != columns {
@@ -152,7 +147,17 @@ impl SurfaceGeometry {
         };
         let shape = [control_points.len(), columns / self.dimension.max(1)];
         let flat = control_points.iter().flat_map(|row| &row.values).copied().collect();
-        Surface::new([knots(0)?, knots(1)?], PointGrid::new(shape, self.dimension, flat)?)
+        let (knots, net) = ([knots(0)?, knots(1)?], PointGrid::new(shape, self.dimension, flat)?);
+        let Some(weights) = &self.weights else { return Surface::new(knots, net) };
+        if let Some(row) = weights.iter().find(|row| row.len() != shape[1]) {
+            return Err(Error::WrongCount {
+                what: "rational weights in a row",
+                given: row.len(),
+                expected: shape[1],
+                why: "one per control point",
+            });
+        }
+        Surface::rational(knots, net, weights.concat())
     }
 }
 

@@ -14,3 +14,4 @@ pub use blending::{BlendingBasis, MAX_BLENDING_DEGREE};
 pub use dp::Dp;
 pub(crate) use kernel::{basis_derivatives, basis_functions};
 pub use rational::Rational;
+pub(crate) use rational::check_weights;

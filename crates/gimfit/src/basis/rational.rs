@@ -20,30 +20,7 @@ impl<B: BlendingBasis> Rational<B> {
     /// [`Error::WrongCount`]; [`Error::OutOfRange`] for a weight that is not positive and finite;
     /// [`Error::Incompatible`] for a basis that is rational already.
     pub fn new(basis: B, weights: Vec<f64>) -> Result<Self, Error> {
-        if weights.len() != basis.functions() {
-            return Err(Error::WrongCount {
-                what: "rational weights",
-                given: weights.len(),
-                expected: basis.functions(),
-                why: "one per basis function",
-            });
-        }
-        if let Some(i) = weights.iter().position(|w| !(*w > 0.0 && w.is_finite())) {
-            return Err(Error::OutOfRange {
-                what: format!("rational weight {i}"),
-                value: weights[i],
-                rule: "rational weights must be positive and finite",
-            });
-        }
-        let (least, most) =
-            weights.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &w| (a.min(w), b.max(w)));
-        if most / least > 1e100 {
-            return Err(Error::OutOfRange {
-                what: "ratio of the largest to the smallest rational weight".into(),
-                value: most / least,
-                rule: "it may not exceed 1e100",
-            });
-        }
+        let most = check_weights(&weights, basis.functions())?;
         if basis.rational_weights().is_some() {
             return Err(Error::Incompatible {
                 what: "rational weights",
@@ -89,4 +66,33 @@ impl<B: BlendingBasis> BlendingBasis for Rational<B> {
     fn rational_weights(&self) -> Option<&[f64]> {
         Some(&self.weights)
     }
+}
+
+/// Refuses weights that no rational basis has; gives back the largest.
+pub(crate) fn check_weights(weights: &[f64], expected: usize) -> Result<f64, Error> {
+    if weights.len() != expected {
+        return Err(Error::WrongCount {
+            what: "rational weights",
+            given: weights.len(),
+            expected,
+            why: "one per basis function, thus per control point",
+        });
+    }
+    if let Some(i) = weights.iter().position(|w| !(*w > 0.0 && w.is_finite())) {
+        return Err(Error::OutOfRange {
+            what: format!("rational weight {i}"),
+            value: weights[i],
+            rule: "rational weights must be positive and finite",
+        });
+    }
+    let (least, most) =
+        weights.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &w| (a.min(w), b.max(w)));
+    if most / least > 1e100 {
+        return Err(Error::OutOfRange {
+            what: "ratio of the largest to the smallest rational weight".into(),
+            value: most / least,
+            rule: "it may not exceed 1e100",
+        });
+    }
+    Ok(most)
 }

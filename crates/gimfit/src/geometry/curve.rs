@@ -1,18 +1,24 @@
-//! A B-spline curve in any dimension.
+//! A B-spline curve in any dimension, polynomial or rational.
 
 use super::check_buffer;
+use super::rational::{check_finite, make_rational, make_rational_values};
 use crate::Error;
-use crate::basis::{basis_derivatives, basis_functions};
+use crate::basis::{basis_derivatives, basis_functions, check_weights};
 use crate::knots::{Boundary, KnotVector, MAX_DEGREE};
 use crate::points::Points;
 
-/// `C(t) = sum_i B_i(t) P_i` over a checked knot vector. A periodic curve stores its first `p`
-/// control points again at the end, so that nothing about its evaluation is special.
+/// `C(t) = sum_i B_i(t) P_i` over a checked knot vector, or with positive weights the rational
+/// curve (NURBS) `C(t) = sum_i w_i B_i(t) P_i / sum_l w_l B_l(t)`. A periodic curve stores its
+/// first `p` control points again at the end, so that nothing about its evaluation is special.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
     knots: KnotVector,
     control_points: Points,
+    rational_weights: Option<Vec<f64>>,
 }
+
+/// The values of a B-spline basis, and of as many derivatives as the degree has.
+const ROWS: usize = (MAX_DEGREE + 1) * (MAX_DEGREE + 1);
 
 impl Curve {
     /// Joins knots and control points, shape (n, dimension).
@@ -49,7 +55,53 @@ impl Curve {
                 why: "its last `degree` control points must repeat the first",
             });
         }
-        Ok(Self { knots, control_points })
+        Ok(Self { knots, control_points, rational_weights: None })
+    }
+
+    /// Joins knots, control points as they lie in space, and their positive weights; only the
+    /// ratios of weights count.
+    ///
+    /// # Errors
+    /// As [`Curve::new`]; [`Error::WrongCount`] unless there is one weight per control point;
+    /// [`Error::OutOfRange`] for weights that are not positive and finite, or more than 1e100 times
+    /// one another; [`Error::Incompatible`] for a periodic curve whose last weights do not repeat
+    /// the first.
+    ///
+    /// # Examples
+    /// ```
+    /// use gimfit::{Curve, KnotVector, Points};
+    /// let knots = KnotVector::open(2, vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0])?;
+    /// let corner = Points::from(&[[1.0, 0.0], [1.0, 1.0], [0.0, 1.0]][..]);
+    /// let arc = Curve::rational(knots, corner, vec![1.0, 0.5_f64.sqrt(), 1.0])?;
+    /// let point = arc.evaluate(0.3)?;
+    /// assert!((point[0].hypot(point[1]) - 1.0).abs() < 1e-15);
+    /// # Ok::<(), gimfit::Error>(())
+    /// ```
+    pub fn rational(
+        knots: KnotVector,
+        control_points: Points,
+        weights: Vec<f64>,
+    ) -> Result<Self, Error> {
+        let curve = Self::new(knots, control_points)?;
+        check_weights(&weights, curve.control_points.len())?;
+        let degree = curve.degree();
+        if curve.is_periodic() && weights[..degree] != weights[weights.len() - degree..] {
+            return Err(Error::Incompatible {
+                what: "these rational weights",
+                with: "a periodic curve",
+                why: "its last `degree` weights must repeat the first",
+            });
+        }
+        Ok(Self { rational_weights: Some(weights), ..curve })
+    }
+
+    /// The curve over the same knots, and with the same weights, that has other control points.
+    ///
+    /// # Errors
+    /// As [`Curve::new`].
+    pub fn with_control_points(&self, control_points: Points) -> Result<Self, Error> {
+        let curve = Self::new(self.knots.clone(), control_points)?;
+        Ok(Self { rational_weights: self.rational_weights.clone(), ..curve })
     }
 
     /// The degree.
@@ -74,6 +126,12 @@ impl Curve {
     #[must_use]
     pub fn control_points(&self) -> &Points {
         &self.control_points
+    }
+
+    /// Weights of the stored control points; `None` for a polynomial curve.
+    #[must_use]
+    pub fn rational_weights(&self) -> Option<&[f64]> {
+        self.rational_weights.as_deref()
     }
 
     /// Whether the curve closes smoothly.
@@ -121,7 +179,8 @@ impl Curve {
     /// end of the domain from the left.
     ///
     /// # Errors
-    /// [`Error::OutsideDomain`]; [`Error::WrongCount`] for a buffer of another length.
+    /// [`Error::OutsideDomain`]; [`Error::WrongCount`] for a buffer of another length;
+    /// [`Error::LeavesDoubles`] for a rational curve that bends more sharply than doubles can tell.
     pub fn derivatives_into(
         &self,
         t: f64,
@@ -131,7 +190,7 @@ impl Curve {
         check_buffer(derivatives, (order + 1) * self.dimension())?;
         let span = self.knots.span(t)?;
         self.derivatives_on_span(span, t, order, derivatives);
-        Ok(())
+        if self.rational_weights.is_some() { check_finite(derivatives) } else { Ok(()) }
     }
 
     /// Parameters at `count` equal steps from one end of the domain to the other.
@@ -141,10 +200,10 @@ impl Curve {
     }
 
     /// Exact cubic Bezier pieces, four points each, shape (pieces, 4, dimension); `None` for degrees
-    /// above 3.
+    /// above 3 and for rational curves.
     #[must_use]
     pub fn bezier_pieces(&self) -> Option<Vec<f64>> {
-        if self.degree() > 3 {
+        if self.degree() > 3 || self.rational_weights.is_some() {
             return None;
         }
         let dimension = self.dimension();
@@ -169,6 +228,9 @@ impl Curve {
         let degree = self.degree();
         let mut values = [0.0; MAX_DEGREE + 1];
         basis_functions(self.knots.values(), degree, span, t, &mut values);
+        if let Some(weights) = &self.rational_weights {
+            make_rational_values(&mut values[..=degree], &weights[span - degree..=span]);
+        }
         self.blend(span, &values[..=degree], point);
     }
 
@@ -181,13 +243,31 @@ impl Curve {
         derivatives: &mut [f64],
     ) {
         let (degree, dimension) = (self.degree(), self.dimension());
-        derivatives.fill(0.0);
+        let width = degree + 1;
         let known = order.min(degree);
-        let mut values = [0.0; (MAX_DEGREE + 1) * (MAX_DEGREE + 1)];
-        basis_derivatives(self.knots.values(), degree, span, t, known, &mut values);
-        for k in 0..=known {
-            let row = &values[k * (degree + 1)..][..=degree];
-            self.blend(span, row, &mut derivatives[k * dimension..][..dimension]);
+        let mut few = [0.0; ROWS];
+        basis_derivatives(self.knots.values(), degree, span, t, known, &mut few);
+        let mut many = Vec::new();
+        let rows = match &self.rational_weights {
+            None => &few[..(known + 1) * width],
+            Some(weights) => {
+                // Those of a rational curve do not end with the degree.
+                let rows = if order <= MAX_DEGREE {
+                    &mut few[..(order + 1) * width]
+                } else {
+                    many.resize((order + 1) * width, 0.0);
+                    many[..(known + 1) * width].copy_from_slice(&few[..(known + 1) * width]);
+                    &mut many[..]
+                };
+                make_rational(rows, &weights[span - degree..=span]);
+                &*rows
+            }
+        };
+        derivatives.fill(0.0);
+        for (row, derivative) in
+            rows.chunks_exact(width).zip(derivatives.chunks_exact_mut(dimension))
+        {
+            self.blend(span, row, derivative);
         }
     }
 

@@ -2,6 +2,7 @@
 
 mod blending;
 mod curve;
+mod rational;
 mod surface;
 
 pub use blending::{BlendingCurve, BlendingSurface};

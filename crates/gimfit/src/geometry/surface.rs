@@ -1,18 +1,21 @@
-//! A tensor-product B-spline surface in any dimension.
+//! A tensor-product B-spline surface in any dimension, polynomial or rational.
 
 use super::check_buffer;
+use super::rational::{check_finite, divide_partials, largest};
 use crate::Error;
-use crate::basis::basis_derivatives;
+use crate::basis::{basis_derivatives, check_weights};
 use crate::knots::{Boundary, KnotVector, MAX_DEGREE};
 use crate::points::PointGrid;
 
-/// `S(u, v) = sum_ij B_i(u) B_j(v) P_ij` over checked knot vectors. In a periodic direction the
-/// first `p` rows or columns of the net are stored again at the end, so that nothing about its
-/// evaluation is special.
+/// `S(u, v) = sum_ij B_i(u) B_j(v) P_ij` over checked knot vectors, or with positive weights the
+/// rational surface (NURBS) `sum_ij w_ij B_i(u) B_j(v) P_ij / sum_ij w_ij B_i(u) B_j(v)`. In a
+/// periodic direction the first `p` rows or columns of the net are stored again at the end, so that
+/// nothing about its evaluation is special.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surface {
     knots: [KnotVector; 2],
     control_net: PointGrid,
+    rational_weights: Option<Vec<f64>>,
 }
 
 /// Values of the functions that do not vanish on a span, and of their derivatives.
@@ -45,28 +48,48 @@ impl Surface {
                 value: points.coordinates()[position],
             });
         }
-        let [rows, columns] = control_net.shape();
-        let (first, second) = (knots[0].degree(), knots[1].degree());
-        let repeats = [
-            (0..first).all(|i| {
-                (0..columns)
-                    .all(|j| control_net.point(i, j) == control_net.point(rows - first + i, j))
-            }),
-            (0..second).all(|j| {
-                (0..rows)
-                    .all(|i| control_net.point(i, j) == control_net.point(i, columns - second + j))
-            }),
-        ];
-        for (knots, repeats) in knots.iter().zip(repeats) {
-            if knots.boundary() == Boundary::Periodic && !repeats {
-                return Err(Error::Incompatible {
-                    what: "this control net",
-                    with: "a periodic direction",
-                    why: "its last `degree` rows or columns must repeat the first",
-                });
-            }
+        if !repeats(&knots, &control_net) {
+            return Err(Error::Incompatible {
+                what: "this control net",
+                with: "a periodic direction",
+                why: "its last `degree` rows or columns must repeat the first",
+            });
         }
-        Ok(Self { knots, control_net })
+        Ok(Self { knots, control_net, rational_weights: None })
+    }
+
+    /// Joins knots, a control net as it lies in space, and its positive weights, row by row; only
+    /// the ratios of weights count.
+    ///
+    /// # Errors
+    /// As [`Surface::new`]; [`Error::WrongCount`] unless there is one weight per control point;
+    /// [`Error::OutOfRange`] for weights that are not positive and finite, or more than 1e100 times
+    /// one another; [`Error::Incompatible`] for a periodic direction in which they do not repeat.
+    pub fn rational(
+        knots: [KnotVector; 2],
+        control_net: PointGrid,
+        weights: Vec<f64>,
+    ) -> Result<Self, Error> {
+        let surface = Self::new(knots, control_net)?;
+        let shape = surface.control_net.shape();
+        check_weights(&weights, shape[0] * shape[1])?;
+        if !repeats(&surface.knots, &PointGrid::new(shape, 1, weights.clone())?) {
+            return Err(Error::Incompatible {
+                what: "these rational weights",
+                with: "a periodic direction",
+                why: "their last `degree` rows or columns must repeat the first",
+            });
+        }
+        Ok(Self { rational_weights: Some(weights), ..surface })
+    }
+
+    /// The surface over the same knots, and with the same weights, that has another control net.
+    ///
+    /// # Errors
+    /// As [`Surface::new`].
+    pub fn with_control_net(&self, control_net: PointGrid) -> Result<Self, Error> {
+        let surface = Self::new(self.knots.clone(), control_net)?;
+        Ok(Self { rational_weights: self.rational_weights.clone(), ..surface })
     }
 
     /// Degrees in direction u and v.
@@ -91,6 +114,12 @@ impl Surface {
     #[must_use]
     pub fn control_net(&self) -> &PointGrid {
         &self.control_net
+    }
+
+    /// Weights of the stored control points, row by row; `None` for a polynomial surface.
+    #[must_use]
+    pub fn rational_weights(&self) -> Option<&[f64]> {
+        self.rational_weights.as_deref()
     }
 
     /// Whether the surface closes smoothly in u and in v.
@@ -129,7 +158,9 @@ impl Surface {
     /// the domain from the left.
     ///
     /// # Errors
-    /// [`Error::OutsideDomain`]; [`Error::WrongCount`] for a buffer of another length.
+    /// [`Error::OutsideDomain`]; [`Error::WrongCount`] for a buffer of another length;
+    /// [`Error::LeavesDoubles`] for a rational surface that bends more sharply than doubles can
+    /// tell.
     pub fn derivatives_into(
         &self,
         u: f64,
@@ -142,20 +173,39 @@ impl Surface {
         let (span_u, rows_u) = self.basis(0, u, order)?;
         let (span_v, rows_v) = self.basis(1, v, order)?;
         let [p, q] = self.degrees();
+        let columns = self.control_net.shape()[1];
+        let weight_at = |weights: &[f64], i: usize, j: usize| {
+            weights[(span_u - p + i) * columns + span_v - q + j]
+        };
+        let weights = self.rational_weights.as_deref();
+        let mut weight_sums = vec![0.0; weights.map_or(0, |_| (order + 1) * (order + 1))];
+        let scale = weights.map_or(1.0, |weights| {
+            largest((0..=p).flat_map(|i| (0..=q).map(move |j| weight_at(weights, i, j))))
+        });
         derivatives.fill(0.0);
         for i in 0..=p {
             for j in 0..=q {
                 let control = self.control_net.point(span_u - p + i, span_v - q + j);
+                let rational = weights.map(|weights| weight_at(weights, i, j) / scale);
                 for a in 0..=order.min(p) {
                     for b in 0..=order.min(q) {
-                        let weight = rows_u[a * (p + 1) + i] * rows_v[b * (q + 1) + j];
-                        let start = (a * (order + 1) + b) * dimension;
-                        for (x, c) in derivatives[start..][..dimension].iter_mut().zip(control) {
+                        let mut weight = rows_u[a * (p + 1) + i] * rows_v[b * (q + 1) + j];
+                        let place = a * (order + 1) + b;
+                        if let Some(rational) = rational {
+                            weight *= rational;
+                            weight_sums[place] += weight;
+                        }
+                        let target = &mut derivatives[place * dimension..][..dimension];
+                        for (x, c) in target.iter_mut().zip(control) {
                             *x += weight * c;
                         }
                     }
                 }
             }
+        }
+        if weights.is_some() {
+            divide_partials(derivatives, &weight_sums, order, dimension);
+            return check_finite(derivatives);
         }
         Ok(())
     }
@@ -168,4 +218,16 @@ impl Surface {
         basis_derivatives(knots.values(), knots.degree(), span, t, known, &mut rows);
         Ok((span, rows))
     }
+}
+
+/// Whether the last `degree` rows and columns repeat the first where a direction is periodic.
+fn repeats(knots: &[KnotVector; 2], net: &PointGrid) -> bool {
+    let [rows, columns] = net.shape();
+    let periodic = |k: usize| knots[k].boundary() == Boundary::Periodic;
+    let (p, q) = (knots[0].degree(), knots[1].degree());
+    let in_u =
+        || (0..p).all(|i| (0..columns).all(|j| net.point(i, j) == net.point(rows - p + i, j)));
+    let in_v =
+        || (0..q).all(|j| (0..rows).all(|i| net.point(i, j) == net.point(i, columns - q + j)));
+    (!periodic(0) || in_u()) && (!periodic(1) || in_v())
 }
