@@ -5,4 +5,5 @@ pub mod anderson;
 pub mod blending;
 pub mod dense;
 pub mod generate;
+pub mod nearest;
 pub mod textbook;

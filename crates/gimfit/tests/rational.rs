@@ -1,5 +1,7 @@
 //! Laws of rational curves and surfaces.
 
+#![allow(clippy::unwrap_used, clippy::panic)] // A test that cannot go on has failed.
+
 use gimfit::{Curve, Error, KnotVector, PointGrid, Points, Surface};
 use gimfit_testkit::generate::Random;
 use gimfit_testkit::textbook::rational_curve_point;

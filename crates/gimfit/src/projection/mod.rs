@@ -1,7 +1,16 @@
-//! Foot points: the nearest points of a curve or surface, looked for near known parameters.
+//! Foot points: the nearest points of a curve or surface, near known parameters or anywhere.
 
+mod bernstein;
+mod boxes;
 mod curve;
+mod global_curve;
+mod global_surface;
+mod patch;
+mod pieces;
+mod query;
 mod surface;
 
 pub use curve::{FootPoint, largest_deviation, local_foot_point};
+pub use global_curve::CurveProjector;
+pub use global_surface::SurfaceProjector;
 pub use surface::{SurfaceFootPoint, largest_surface_deviation, local_surface_foot_point};
