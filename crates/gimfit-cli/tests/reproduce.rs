@@ -34,12 +34,26 @@ fn one_table_can_be_asked_for() {
 }
 
 #[test]
+fn entries_that_no_run_meets_are_told_with_what_comes_out() {
+    let (code, printed, _) = run(&["chen2012"]);
+    assert_eq!(code, 0, "{printed}");
+    assert!(printed.contains("  k=10 P_8  1.170e-2    0.11490011     +1.0e-1  misprint"));
+    assert!(printed.contains("  k=20  2.521e-3  0.0025302192     +9.2e-6  cannot be met"));
+    let told =
+        "chen2012: 67 entries, 11 agree, 54 cannot be met, 2 misprints in the paper, 0 disagree";
+    assert!(printed.contains(told), "{printed}");
+}
+
+#[test]
 fn tables_are_listed_one_a_line() {
     let (code, printed, _) = run(&["--list"]);
     assert_eq!(code, 0);
     let names: Vec<&str> =
         printed.lines().filter_map(|line| line.split_whitespace().next()).collect();
-    assert_eq!(names, ["wang2007", "functions2007", "lin2004", "orsi2021", "spectra", "bases"]);
+    assert_eq!(
+        names,
+        ["wang2007", "functions2007", "lin2004", "chen2012", "orsi2021", "spectra", "bases"]
+    );
 }
 
 #[test]

@@ -85,6 +85,7 @@ mod pages {
         Bases: "docs/methods/bases.md",
         Chebyshev: "docs/methods/chebyshev.md",
         Closed: "docs/methods/closed.md",
+        Diagnose: "docs/methods/diagnose.md",
         FootPoints: "docs/methods/foot-points.md",
         GaussSeidel: "docs/methods/gauss-seidel.md",
         Jacobi: "docs/methods/jacobi.md",

@@ -1,15 +1,14 @@
 //! Smallest eigenvalues of bases that are no B-splines, at equal steps from end to end: how slow
 //! PIA is on each. The Bernstein basis has the largest of all normalised totally positive bases of
 //! its space (Delgado and Pena 2007), in closed form; the others were recomputed independently of
-//! this library. And the one table of a basis that is not totally positive.
+//! this library.
 
 use super::measure::smallest_eigenvalue;
 use super::table::{Entry, Part, Source, Table};
+use gimfit::Error;
 use gimfit::basis::{Bernstein, BlendingBasis, Dp, SaidBall, WangBall};
 use gimfit::collocation::DenseCollocation;
 use gimfit::parameters::Parameters;
-use gimfit::{BlendingOptions, Error, Method, fit_blending_curve};
-use std::sync::Arc;
 
 /// A name, values, and how to make the basis of a degree.
 type Row =
@@ -54,40 +53,7 @@ pub(super) fn recompute() -> anyhow::Result<Table> {
         let heading = format!("{name}: lambda_min at i/n");
         parts.push(Part::Entries { heading, source: Source::Independent, entries });
     }
-    parts.push(half_circle()?);
     Ok(Table { title: "bases beyond B-splines", parts })
-}
-
-/// Steps and printed largest residuals of Chen, Wang and Jin (2012), Table 1: PIA of a quartic
-/// Wang-Ball curve through five points of a half circle at equal steps.
-const HALF_CIRCLE: [(usize, &str); 5] =
-    [(0, "5.732e-1"), (1, "3.297e-1"), (5, "3.992e-2"), (10, "9.603e-3"), (20, "2.521e-3")];
-
-fn half_circle() -> anyhow::Result<Part> {
-    let points: Vec<[f64; 2]> = (0..5)
-        .map(|i| f64::from(i) * std::f64::consts::FRAC_PI_4)
-        .map(|s| [s.cos(), s.sin()])
-        .collect();
-    let options = BlendingOptions {
-        method: Method::Pia,
-        iterations: 20,
-        residual: Some(0.0),
-        ..Default::default()
-    };
-    let fit = fit_blending_curve(&points, Arc::new(WangBall::new(4)?), &options)?;
-    let entries = HALF_CIRCLE
-        .into_iter()
-        .map(|(step, printed)| {
-            let found = fit.report.run.history[step].max_residual;
-            let reason = (step >= 10).then_some("0.5% off; the first entries agree to all digits");
-            Entry::printed(format!("k={step}"), printed, 4, found, 1.0).misprint(reason)
-        })
-        .collect();
-    Ok(Part::Entries {
-        heading: "Chen, Wang and Jin 2012, Table 1: half circle, quartic Wang-Ball, PIA".into(),
-        source: Source::Paper,
-        entries,
-    })
 }
 
 fn of(basis: &dyn BlendingBasis) -> anyhow::Result<f64> {

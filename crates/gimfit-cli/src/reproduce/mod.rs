@@ -1,6 +1,7 @@
 //! Published tables, recomputed and shown beside the paper.
 
 mod bases;
+mod chen2012;
 mod functions2007;
 mod lin2004;
 mod measure;
@@ -23,7 +24,7 @@ struct Reproduction {
     recompute: fn() -> anyhow::Result<Table>,
 }
 
-const REPRODUCTIONS: [Reproduction; 6] = [
+const REPRODUCTIONS: [Reproduction; 7] = [
     Reproduction {
         name: "wang2007",
         line: "Wang, Li, Jiang and Li 2007, Table 1: closed quadratic curve, 15 passes",
@@ -40,6 +41,11 @@ const REPRODUCTIONS: [Reproduction; 6] = [
         recompute: lin2004::recompute,
     },
     Reproduction {
+        name: "chen2012",
+        line: "Chen, Wang and Jin 2012, Tables 1 to 3: Wang-Ball curve; weights per point",
+        recompute: chen2012::recompute,
+    },
+    Reproduction {
         name: "orsi2021",
         line: "Orsi 2021, Tables 2.1 and 2.2: lemniscate, plain and weighted PIA",
         recompute: orsi2021::recompute,
@@ -51,7 +57,7 @@ const REPRODUCTIONS: [Reproduction; 6] = [
     },
     Reproduction {
         name: "bases",
-        line: "Other bases: smallest eigenvalues; Chen, Wang and Jin 2012, Table 1",
+        line: "Other bases: smallest eigenvalues",
         recompute: bases::recompute,
     },
 ];

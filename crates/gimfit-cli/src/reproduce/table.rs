@@ -20,6 +20,8 @@ pub(super) enum Verdict {
     RoundingLevel,
     /// The paper prints something else than its own method gives.
     Misprint,
+    /// Near the recomputed value, but the method does not give the digits printed.
+    NotMet,
     Disagrees,
 }
 
@@ -102,6 +104,15 @@ impl Entry {
         if reason.is_some() && self.verdict == Verdict::Disagrees {
             self.verdict = Verdict::Misprint;
             self.remark = reason;
+        }
+        self
+    }
+
+    /// Says that nothing is known to be wrong with what is printed, and that it cannot be met all
+    /// the same.
+    pub(super) fn cannot_be_met(mut self) -> Self {
+        if self.verdict == Verdict::Disagrees {
+            self.verdict = Verdict::NotMet;
         }
         self
     }
@@ -198,6 +209,10 @@ impl Table {
             }
             if source == Source::Paper {
                 let misprints = counted(count(&entries, Verdict::Misprint), MISPRINTS);
+                let not_met = count(&entries, Verdict::NotMet);
+                if not_met > 0 {
+                    sum += &format!(", {not_met} cannot be met");
+                }
                 sum += &format!(", {misprints} in the paper");
             }
             sum += &format!(", {} disagree", count(&entries, Verdict::Disagrees));
@@ -239,6 +254,7 @@ fn columns(text: &mut String, source: Source, entries: &[Entry]) {
                     Verdict::Agrees => "agrees",
                     Verdict::RoundingLevel => "rounding level",
                     Verdict::Misprint => "misprint",
+                    Verdict::NotMet => "cannot be met",
                     Verdict::Disagrees => "DISAGREES",
                 }
                 .into(),

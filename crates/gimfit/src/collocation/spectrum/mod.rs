@@ -106,7 +106,11 @@ fn estimated(factors: &Factorization) -> EigenvalueBounds {
 pub fn smallest_eigenvalue(factors: &Factorization) -> EigenvalueBounds {
     let count = factors.size();
     // No weight needs the eigenvalue closer, and with many points steps are dear.
-    let enough = if count < MANY_POINTS { ENOUGH } else { ENOUGH_FOR_MANY };
+    let (enough, enough_rest) = if count < MANY_POINTS {
+        (ENOUGH, 0.1 * ENOUGH)
+    } else {
+        (ENOUGH_FOR_MANY, ENOUGH_FOR_MANY)
+    };
     let mut x = vec![1.0; count];
     let mut work = vec![0.0; count];
     let mut bounds = EigenvalueBounds { lower: 0.0, estimate: 1.0, upper: 1.0, steps: 0, place: 0 };
@@ -121,7 +125,7 @@ pub fn smallest_eigenvalue(factors: &Factorization) -> EigenvalueBounds {
         let enclosed = upper - lower <= enough * upper;
         let estimate = if enclosed { 1.0 / quotients.mean } else { lower + rest };
         bounds = EigenvalueBounds { lower, upper, steps: step, estimate, place: quotients.place };
-        if enclosed || (step > 3 && rest <= enough * lower) {
+        if enclosed || (step > 3 && rest <= enough_rest * lower) {
             break;
         }
     }
