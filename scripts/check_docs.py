@@ -26,6 +26,7 @@ PAGE_OF = {
     "sor": "gauss-seidel",
     "staged": "auto",
     "grid": "surfaces",
+    "net_preconditioned": "surfaces",
 }
 
 LINK = re.compile(r"!?\[(?:[^\[\]]|\[[^\]]*\])*\]\(\s*<?([^)\s>]+)>?(?:\s+\"[^\"]*\")?\s*\)")

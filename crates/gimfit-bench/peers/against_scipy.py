@@ -6,7 +6,8 @@ Needs NumPy and SciPy, and cargo:
     python3 -m venv peers && peers/bin/pip install numpy scipy
     peers/bin/python crates/gimfit-bench/peers/against_scipy.py --write
 
-Without --write the tables are only printed. Takes about four minutes.
+Without --write the tables are only printed. Takes about four minutes. With --surface the grids of W3
+take the place of the curves.
 """
 import argparse
 import json
@@ -18,8 +19,10 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(HERE)))
 SIZES = [100, 10_000, 100_000, 1_000_000]
+# Rows, and columns, of grids.
+GRID_SIZES = [100, 300, 1000, 3000]
 # One thread for everybody; set before NumPy is loaded here or in a child.
-for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "RAYON_NUM_THREADS"):
     os.environ[name] = "1"
 
 
@@ -60,14 +63,33 @@ def verify(workload, count, files):
     return verdict
 
 
+def verify_grid(count, files):
+    """As verify, for surfaces: both evaluated by SciPy's BSpline, in u, then in v."""
+    import numpy as np
+    import workloads
+    from scipy.interpolate import BSpline
+    u, v, s, t = (workloads.load(f"W3_{count}.{kind}") for kind in "uvst")
+    points = workloads.load(f"W3_{count}.p", count, count, 3)
+    extent = np.linalg.norm(points.max((0, 1)) - points.min((0, 1)))
+    ours = np.fromfile(files["gimfit"], dtype="<f8").reshape(points.shape)
+    verdict = {"input_mb": 8 * (points.size + 4 * count) / 2**20}
+    for peer, file in files.items():
+        net = np.fromfile(file, dtype="<f8").reshape(points.shape)
+        verdict[peer + " difference"] = float(np.abs(net - ours).max() / extent)
+        across = BSpline(s, net, workloads.DEGREE)(u)
+        gaps = BSpline(t, np.moveaxis(across, 1, 0), workloads.DEGREE)(v) - np.moveaxis(points, 1, 0)
+        verdict[peer] = float(np.sqrt((gaps * gaps).sum(2)).max() / extent)
+    return verdict
+
+
 def compare(program, workload, count, arguments, folder):
     """All rounds of one case."""
-    peers = {
-        "gimfit": ([program], "gimfit.interpolate"),
-        "scipy": ([sys.executable, os.path.join(HERE, "python_peers.py")], "scipy"),
-        "copy": ([sys.executable, os.path.join(HERE, "python_peers.py")], "copy"),
-    }
-    files = {peer: os.path.join(folder, peer + ".control") for peer in ("gimfit", "scipy")}
+    python = [sys.executable, os.path.join(HERE, "python_peers.py")]
+    peers = {"gimfit": ([program], "gimfit.interpolate"), "scipy": (python, "scipy")}
+    if workload == "W3":
+        peers["fitpack"] = (python, "fitpack")
+    files = {peer: os.path.join(folder, peer + ".control") for peer in peers}
+    peers["copy"] = (python, "copy")
     rounds = []
     for k in range(arguments.rounds):
         # Whoever comes first has the caches to himself: take turns at that, too.
@@ -79,7 +101,8 @@ def compare(program, workload, count, arguments, folder):
             seconds = arguments.seconds * (0.2 if peer == "copy" else 1.0)
             results[peer] = run(command, workload, name, count, seconds, file)
         rounds.append(results)
-    case = {"rounds": rounds, "verified": verify(workload, count, files)}
+    verified = verify_grid(count, files) if workload == "W3" else verify(workload, count, files)
+    case = {"rounds": rounds, "verified": verified}
     if not all(r["gimfit"]["converged"] for r in rounds):
         raise SystemExit(f"{workload} {count}: gimfit did not reach its residual")
     return case
@@ -89,6 +112,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("--write", action="store_true", help="write docs/benchmarks/curve.md")
     parser.add_argument("--large", action="store_true", help="also ten million points (needs 6 GiB)")
+    parser.add_argument("--surface", action="store_true",
+                        help="surfaces: write docs/benchmarks/surface.md")
     parser.add_argument("--sizes", help="other numbers of points, with commas between them")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--seconds", type=float, default=1.5, help="of each peer in each round")
@@ -96,7 +121,8 @@ def main():
                         help="compare processor time: a quick look on a busy machine")
     parser.add_argument("--program", help="our program, if it is built already")
     arguments = parser.parse_args()
-    sizes = [int(n) for n in arguments.sizes.split(",")] if arguments.sizes else list(SIZES)
+    sizes = [int(n) for n in arguments.sizes.split(",")] if arguments.sizes else \
+        list(GRID_SIZES if arguments.surface else SIZES)
     sizes += [10_000_000] if arguments.large else []
     try:
         import machine
@@ -111,16 +137,18 @@ def main():
         os.environ["BENCH_DATA"] = folder
         import workloads
         workloads.FOLDER = folder
-        for workload in ("W1", "W2"):
+        for workload in ("W3",) if arguments.surface else ("W1", "W2"):
             for count in sizes:
                 workloads.make(workload, count)
                 cases[workload, count] = compare(program, workload, count, arguments, folder)
                 workloads.remove(workload, count)
                 print(f"{workload} {count}: done", file=sys.stderr)
-    text = table.document(cases, description, vars(arguments))
+    document, name = ((table.surface_document, "surface.md") if arguments.surface
+                      else (table.document, "curve.md"))
+    text = document(cases, description, vars(arguments))
     print(text)
     if arguments.write:
-        with open(os.path.join(ROOT, "docs", "benchmarks", "curve.md"), "w") as file:
+        with open(os.path.join(ROOT, "docs", "benchmarks", name), "w") as file:
             file.write(text)
 
 

@@ -86,3 +86,54 @@ of the bounding box; control points differ by: the largest difference of a coord
 Both curves were evaluated by the same program (SciPy's `BSpline`). Memory: MiB; the input, and how much
 the process grew beyond what it held before its first fit.
 """
+
+
+def surface_document(cases, machine, settings):
+    calm = min(r[peer]["cpu_per_wall"] for case in cases.values() for r in case["rounds"]
+               for peer in ("gimfit", "scipy", "fitpack"))
+    clock, kind = ("cpu_median", "processor") if settings["processor_time"] else ("median", "wall")
+    timed, found = [], []
+    for (_, count), case in cases.items():
+        r, same = case["rounds"], case["verified"]
+        timed.append([
+            f"{count} x {count}", seconds(middle("gimfit", clock, r)),
+            seconds(middle("scipy", clock, r)), ratio("scipy", "gimfit", r, clock),
+            seconds(middle("fitpack", clock, r)), ratio("fitpack", "gimfit", r, clock),
+            seconds(middle("copy", clock, r)), ratio("gimfit", "copy", r, clock),
+        ])
+        found.append([
+            f"{count} x {count}", r[0]["gimfit"]["iterations"], f"{same['gimfit']:.1e}",
+            f"{same['scipy']:.1e}", f"{same['fitpack']:.1e}", f"{same['scipy difference']:.1e}",
+            f"{same['fitpack difference']:.1e}", f"{same['input_mb']:.3g}",
+            *(f"+ {middle(peer, 'work_mb', r):.3g}" for peer in ("gimfit", "scipy", "fitpack")),
+        ])
+    times_head = ["points", "gimfit", "make_interp_spline", "over gimfit", "RectBivariateSpline",
+                  "over gimfit", "copy", "gimfit / copy"]
+    found_head = ["points", "iterations", "residual: gimfit", "make_interp_spline",
+                  "RectBivariateSpline", "control points differ by: first", "second",
+                  "memory: input", "gimfit", "first", "second"]
+    return f"""# Interpolating grids: gimfit and SciPy
+
+Written by `crates/gimfit-bench/peers/against_scipy.py --surface`; [README.md](README.md) says how to run
+it and what is compared. Bicubic surfaces through m x m points of three coordinates at uneven parameters,
+over not-a-knot knots, the same for all: gimfit's `fit_surface`, SciPy's `make_interp_spline` in one
+direction and then in the other, and one `RectBivariateSpline` for each coordinate.
+
+{table(["machine", ""], machine)}
+
+{settings["rounds"]} rounds; in each, all ran one after another, each in a process of its own
+({settings["seconds"]:g} s; the copy a fifth of that), on one thread. Times are medians of {kind} time; a ratio is
+the median of the ratios of each round, with the smallest and the largest. The least share of a processor
+that any run had was {calm:.0%}; far below 100 % means that the machine was busy with other work.
+
+{table(times_head, timed)}
+
+Copy: the time to copy the points once between arrays already in use (48 bytes a point, half of them read).
+
+{table(found_head, found)}
+
+Residual: the largest distance between a data point and the surface at its parameters, over the diagonal
+of the bounding box; control points differ by: the largest difference of a coordinate from gimfit's, over
+the same. All surfaces were evaluated by the same program (SciPy's `BSpline`). Memory: MiB; the input, and
+how much the process grew beyond what it held before its first fit.
+"""

@@ -6,6 +6,7 @@ use crate::surface::SurfaceArguments;
 use crate::values;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use gimfit::Duplicates;
+use gimfit_io::grids::parse_shape;
 use gimfit_io::points::{ColumnChoice, DecimalMark, Delimiter, FormatChoice, PartChoice};
 use std::convert::Infallible;
 use std::path::PathBuf;
@@ -406,6 +407,21 @@ pub(crate) struct EvaluateArguments {
 pub(crate) struct InfoArguments {
     #[command(flatten)]
     pub(crate) input: InputArguments,
+
+    /// Read the file as a grid, as gimfit surface does; without it, files that say they are grids
+    /// are told by themselves
+    #[arg(long, conflicts_with_all = ["abscissa", "part"], help_heading = "Reading")]
+    pub(crate) grid: bool,
+
+    /// Rows and columns of a grid that does not tell them, such as 20x30
+    #[arg(
+        long,
+        value_name = "MxN",
+        requires = "grid",
+        value_parser = parse_shape,
+        help_heading = "Reading"
+    )]
+    pub(crate) shape: Option<(usize, usize)>,
 
     /// Print as JSON
     #[arg(long)]

@@ -9,6 +9,7 @@ use gimfit::points::Extent;
 use gimfit_io::document::{
     AnyDocument, Document, Geometry, SurfaceDocument, SurfaceKind, is_document, parse_any_document,
 };
+use gimfit_io::grids::{GridOptions, PointGrid, read_grid_from, says_grid};
 use gimfit_io::points::{PointTable, input_name, read_input, read_points_from};
 use std::fmt::Write;
 
@@ -24,8 +25,13 @@ pub(crate) fn run(arguments: &InfoArguments) -> anyhow::Result<Ending> {
         }
     } else {
         let ending = path.extension().map(|ending| ending.to_string_lossy().into_owned());
-        let options = input::options(&arguments.input);
-        of_points(&read_points_from(&bytes, &name, ending.as_deref(), &options)?)?
+        match grid(&bytes, &name, ending.as_deref(), arguments)? {
+            Some(grid) => of_grid(&grid)?,
+            None => {
+                let options = input::options(&arguments.input);
+                of_points(&read_points_from(&bytes, &name, ending.as_deref(), &options)?)?
+            }
+        }
     };
     if arguments.json {
         output::data(&facts.json())?;
@@ -33,6 +39,95 @@ pub(crate) fn run(arguments: &InfoArguments) -> anyhow::Result<Ending> {
         output::text(&facts.text())?;
     }
     Ok(Ending::Done)
+}
+
+/// The grid of a file that is to be one, or says so of itself and can be read as one.
+fn grid(
+    bytes: &[u8],
+    name: &str,
+    ending: Option<&str>,
+    arguments: &InfoArguments,
+) -> anyhow::Result<Option<PointGrid>> {
+    let input = &arguments.input;
+    let chosen = input.abscissa.is_some() || input.part.is_some() || input.format.is_some();
+    if !arguments.grid && (chosen || !says_grid(bytes, ending)) {
+        return Ok(None);
+    }
+    let options = GridOptions {
+        shape: arguments.shape,
+        columns: (!input.columns.is_empty()).then(|| input.columns.clone()),
+        delimiter: input.delimiter,
+        decimal: input.decimal,
+        keep_holes: true,
+        ..GridOptions::default()
+    };
+    match read_grid_from(bytes, name, ending, &options) {
+        Ok(grid) => Ok(Some(grid)),
+        Err(error) if arguments.grid => Err(error.into()),
+        Err(_) => Ok(None),
+    }
+}
+
+fn of_grid(grid: &PointGrid) -> anyhow::Result<Facts> {
+    let mut facts = Facts(Vec::new());
+    let (dimension, columns) = (grid.dimension(), grid.columns);
+    facts.add("file", grid.source.clone());
+    facts.add("holds", "grid");
+    facts.add("read_as", grid.format.to_string());
+    if let Some(title) = &grid.title {
+        facts.add("title", title.clone());
+    }
+    facts.add("rows", grid.rows);
+    facts.add("columns", columns);
+    facts.add("dimension", dimension);
+    facts.add("coordinates", grid.column_names.clone());
+    let missing = grid.holes().count();
+    facts.add("missing_cells", missing);
+    if let Some((row, column)) = grid.holes().next() {
+        facts.add("first_missing", grid.point_name(row, column));
+    }
+    let whole = |point: &&[f64]| point.iter().all(|x| !x.is_nan());
+    let present: Vec<f64> =
+        grid.coordinates.chunks_exact(dimension).filter(whole).flatten().copied().collect();
+    if !present.is_empty() {
+        let extent = Extent::of(PointsView::new(dimension, &present)?)?;
+        facts.add("lower_corner", extent.lower.clone());
+        facts.add("upper_corner", extent.upper.clone());
+        facts.add("extent", extent.diagonal());
+    }
+    let point =
+        |i: usize, j: usize| &grid.coordinates[(i * columns + j) * dimension..][..dimension];
+    let cells = |i: usize| (0..columns).map(move |j| (i, j));
+    let between_rows =
+        (1..grid.rows).flat_map(cells).map(|(i, j)| distance(point(i - 1, j), point(i, j)));
+    add_spacing(&mut facts, ["shortest_step_u", "longest_step_u"], between_rows);
+    let between_columns = (0..grid.rows)
+        .flat_map(cells)
+        .filter(|(_, j)| *j > 0)
+        .map(|(i, j)| distance(point(i, j - 1), point(i, j)));
+    add_spacing(&mut facts, ["shortest_step_v", "longest_step_v"], between_columns);
+    for (name, abscissae) in
+        [("row_abscissae", &grid.row_abscissae), ("column_abscissae", &grid.column_abscissae)]
+    {
+        if let Some([first, .., last]) = abscissae.as_deref() {
+            facts.add(name, vec![*first, *last]);
+        }
+    }
+    if !grid.notes.is_empty() {
+        facts.add("notes", grid.notes.clone());
+    }
+    Ok(facts)
+}
+
+/// The shortest and the longest of the steps between neighbours that are both there.
+fn add_spacing(facts: &mut Facts, names: [&'static str; 2], steps: impl Iterator<Item = f64>) {
+    let ends = steps
+        .filter(|step| !step.is_nan())
+        .fold((f64::INFINITY, -1.0_f64), |ends, step| (ends.0.min(step), ends.1.max(step)));
+    if ends.1 >= 0.0 {
+        facts.add(names[0], ends.0);
+        facts.add(names[1], ends.1);
+    }
 }
 
 /// Names and values, shown as lines or as JSON.

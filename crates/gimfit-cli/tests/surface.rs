@@ -245,3 +245,47 @@ fn abscissae_that_fall_are_counted_from_the_other_end() {
         serde_json::from_slice(&fs::read(at.join("dem.json")).unwrap()).unwrap();
     assert_eq!(document["parameters"][0], serde_json::json!([-235.0, -225.0, -215.0, -205.0]));
 }
+
+#[test]
+fn info_tells_of_grids_and_of_their_missing_cells() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    fs::write(at.join("peaks.csv"), peaks()).unwrap();
+    let header =
+        "ncols 5\nnrows 4\nxllcorner 100\nyllcorner 200\ncellsize 10\nNODATA_value -9999\n";
+    let rows = "1 2 3 4 5\n2 -9999 5 4 3\n3 4 6 -9999 2\n4 4 4 4 1\n";
+    fs::write(at.join("dem.asc"), format!("{header}{rows}")).unwrap();
+    fs::write(at.join("m.csv"), ",0,1,2,3\n0,1,2,3,4\n1,2,,4,5\n2,1,2,3,4\n3,4,5,6,7\n").unwrap();
+    let mut holed: Vec<String> = peaks().lines().map(str::to_owned).collect();
+    holed.remove(20);
+    fs::write(at.join("holed.csv"), holed.join("\n")).unwrap();
+    fs::write(at.join("xyz.csv"), "x,y,z\n0,0,1\n1,0,2\n2,1,1\n").unwrap();
+    fs::write(at.join("uv.csv"), "u,v\n0,0\n1,0\n2,1\n").unwrap();
+    let told = |line: &str| -> serde_json::Value {
+        let output = gimfit(at, &format!("info {line} --json")).code(0);
+        serde_json::from_slice(&output.get_output().stdout).unwrap()
+    };
+    let peaks = told("peaks.csv");
+    assert_eq!(peaks["holds"], "grid");
+    assert_eq!((&peaks["rows"], &peaks["columns"]), (&11.into(), &11.into()));
+    assert_eq!((&peaks["dimension"], &peaks["missing_cells"]), (&3.into(), &0.into()));
+    let dem = told("dem.asc");
+    assert_eq!(
+        (&dem["rows"], &dem["columns"], &dem["missing_cells"]),
+        (&4.into(), &5.into(), &2.into())
+    );
+    assert!(dem["first_missing"].as_str().unwrap().starts_with("row 2, column 2"));
+    assert_eq!(dem["row_abscissae"], serde_json::json!([235.0, 205.0]));
+    assert!(dem["shortest_step_u"].as_f64().unwrap() >= 10.0);
+    let matrix = told("m.csv");
+    assert_eq!((&matrix["missing_cells"], &matrix["rows"]), (&1.into(), &4.into()));
+    let holed = told("holed.csv");
+    assert_eq!((&holed["missing_cells"], &holed["rows"]), (&1.into(), &11.into()));
+    assert_eq!(told("xyz.csv")["holds"], "points");
+    assert_eq!(told("uv.csv")["holds"], "points");
+    assert_eq!(told("xyz.csv --grid --shape 1x3")["rows"], 1);
+    // To fit them, holes are an error as before.
+    for file in ["dem.asc", "m.csv", "holed.csv"] {
+        gimfit(at, &format!("surface {file}")).code(2);
+    }
+}

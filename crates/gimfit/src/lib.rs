@@ -34,6 +34,7 @@
 pub mod error;
 mod memory;
 pub mod points;
+mod threads;
 
 pub mod parameters;
 

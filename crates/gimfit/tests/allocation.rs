@@ -45,3 +45,25 @@ fn steps_allocate_nothing() {
         }
     }
 }
+
+#[test]
+fn steps_on_a_grid_allocate_nothing_after_the_first() {
+    use gimfit::collocation::TensorCollocation;
+    use gimfit::iteration::update::NetPreconditioned;
+    const COUNT: usize = 30;
+    let line = helix(COUNT);
+    let view = PointsView::new(3, &line).unwrap();
+    let data: Vec<f64> = (0..COUNT).flat_map(|_| line.iter().copied()).collect();
+    for closed in [false, true] {
+        let t = assign_parameters(view, closed, &Parameterization::Chord).unwrap();
+        let knots = place_knots(3, &t, &KnotPlacement::Averaged).unwrap();
+        let operator = interpolation(&t, &knots).unwrap().operator;
+        let both = TensorCollocation::new(&operator, &operator, 3);
+        let mut rule = NetPreconditioned::new(&operator, &operator, Some(1)).unwrap();
+        let mut state = IterationState::begin(&both, &data, 3);
+        state.step(&mut rule);
+        let counted = allocation_counter::measure(|| (0..5).for_each(|_| state.step(&mut rule)));
+        assert_eq!(counted.count_total, 0);
+        assert!(state.norms().is_finite());
+    }
+}

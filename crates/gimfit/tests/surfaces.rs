@@ -464,3 +464,57 @@ fn jacobi_on_a_whole_net_runs_where_its_eigenvalues_allow_it() {
     assert!(matches!(run([3, 3]), Err(Error::Incompatible { what: "jacobi", .. })));
     assert!(matches!(run([5, 5]), Err(Error::Incompatible { what: "jacobi", .. })));
 }
+
+#[test]
+fn the_same_bytes_come_out_of_any_number_of_threads() {
+    // Large enough to be shared out; neither side a multiple of what is taken at a time.
+    let shape = [151, 149];
+    let points = sheet(shape, 9);
+    for closed in [[false, false], [true, true]] {
+        for method in [Method::Auto, Method::Preconditioned { half_bandwidth: Some(1) }] {
+            let options = SurfaceOptions {
+                closed,
+                method,
+                iterations: 2,
+                residual: Some(0.0),
+                ..Default::default()
+            };
+            let run = |threads: usize| {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+                pool.install(|| fit(shape, &points, &options))
+            };
+            let alone = run(1);
+            assert!(alone.report.run.max_residual < alone.report.run.history[0].max_residual);
+            assert_eq!(run(3), alone, "{closed:?} {method:?}");
+        }
+    }
+}
+
+#[test]
+fn wide_and_long_grids_of_any_dimension_are_met() {
+    for (shape, dimension) in
+        [([4, 4], 3), ([4, 300], 2), ([300, 4], 1), ([5, 9], 7), ([9, 11], 4), ([17, 8], 3)]
+    {
+        let mut random = Random::new(17);
+        let count = shape[0] * shape[1] * dimension;
+        let points: Vec<f64> = (0..count).map(|_| random.signed()).collect();
+        for closed in [[false, false], [true, true]] {
+            let uniform = || Some(Parameterization::Uniform);
+            let options = SurfaceOptions {
+                closed,
+                parameterizations: [uniform(), uniform()],
+                degrees: if closed[0] { [2, 2] } else { [3, 3] },
+                ..Default::default()
+            };
+            let view = GridView::new(shape, dimension, &points).unwrap();
+            let Ok(found) = fit_surface(view, &options) else { continue };
+            assert!(found.report.run.max_residual < 1e-9, "{shape:?} {dimension} {closed:?}");
+            for (at, point) in points.chunks(dimension).enumerate() {
+                let (u, v) =
+                    (found.parameters[0][at / shape[1]], found.parameters[1][at % shape[1]]);
+                let s = found.surface.evaluate(u, v).unwrap();
+                assert!(s.iter().zip(point).all(|(a, b)| (a - b).abs() < 1e-9), "{shape:?}");
+            }
+        }
+    }
+}

@@ -159,6 +159,7 @@ fn reading(arguments: &SurfaceArguments) -> GridOptions {
         axes: arguments.axes,
         delimiter: arguments.delimiter,
         decimal: arguments.decimal,
+        keep_holes: false,
     }
 }
 

@@ -50,14 +50,18 @@ pub(super) fn read(
             counted(body.z.len(), "height")
         ));
     }
-    body.tally.refuse_holes(body.z.len(), source)?;
+    if !options.keep_holes {
+        body.tally.refuse_holes(body.z.len(), source)?;
+    }
     note_skipped(skipped, body.tally.vanished(), &mut notes);
     notes.push(
         "The points are (x, y, z): x and y are the centre of the cell as the header gives it, z \
          is the height; the rows run from north to south, as in the file."
             .to_owned(),
     );
-    if let Some(value) = header.no_data {
+    if let Some(value) = header.no_data
+        && !body.z.iter().any(|z| z.is_nan())
+    {
         notes.push(format!("No cell holds {}, which stands for no data.", shown(value)));
     }
     if !body.rows_whole {

@@ -70,6 +70,33 @@ pub(super) fn read(
     Ok(grid)
 }
 
+/// Whether bytes say of themselves that they hold a grid.
+pub(super) fn says_grid(bytes: &[u8], extension: Option<&str>) -> bool {
+    let extension = extension.unwrap_or("").trim_start_matches('.').to_ascii_lowercase();
+    if bytes.starts_with(MAGIC) {
+        return crate::points::npy::axes(bytes) == Some(3);
+    }
+    let Ok(text) = decode::text(bytes, "", false, &mut Vec::new()) else { return false };
+    if is_markup(text.as_bytes()) {
+        return false;
+    }
+    if esri_header::opens(&text) {
+        return true;
+    }
+    let options = GridOptions::default().for_points();
+    let separator = separator::find(&text, &extension, &options);
+    let start = Rows::new(&text, separator, "")
+        .and_then(|rows| layout::first_two(&rows, ""))
+        .and_then(|rows| Start::new(rows, ""));
+    match start {
+        Ok(Start { opening: Opening::Axis { corner }, .. }) => corner,
+        Ok(Start { opening: Opening::Names, first, .. }) => {
+            first.cells.len() > 2 && lines::pair_by_name(&first.cells).is_some()
+        }
+        _ => false,
+    }
+}
+
 /// What one line of a table of text holds.
 enum Form {
     /// One point.

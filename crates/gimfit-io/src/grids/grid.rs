@@ -19,7 +19,8 @@ pub struct PointGrid {
     pub columns: usize,
     /// The names of the coordinates in order.
     pub column_names: Vec<String>,
-    /// The coordinates, finite, in C order: shape (rows, columns, dimension).
+    /// The coordinates in C order: shape (rows, columns, dimension). Finite,
+    /// but for holes that were to be kept.
     pub coordinates: Vec<f64>,
     /// Every choice made while reading, one sentence each.
     pub notes: Vec<String>,
@@ -51,6 +52,15 @@ impl PointGrid {
     /// The number of coordinates of each point.
     pub fn dimension(&self) -> usize {
         self.column_names.len()
+    }
+
+    /// Row and column, from 0, of each cell without a value that was kept.
+    pub fn holes(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        self.coordinates
+            .chunks_exact(self.dimension().max(1))
+            .enumerate()
+            .filter(|(_, point)| point.iter().any(|x| x.is_nan()))
+            .map(|(at, _)| (at / self.columns.max(1), at % self.columns.max(1)))
     }
 
     /// Where the point in row `row` and column `column` (both from 0) stands:

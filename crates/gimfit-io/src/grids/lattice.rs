@@ -116,12 +116,17 @@ impl<'n> Labels<'n> {
     }
 }
 
-/// The grid in which each point stands where its labels say.
+/// In place of the point of a cell that has none.
+pub(super) const NONE: usize = usize::MAX;
+
+/// The grid in which each point stands where its labels say; [`NONE`] where
+/// there is no point, if such holes are kept.
 pub(super) fn place(
     rows: &Labels<'_>,
     columns: &Labels<'_>,
     lines: &[u32],
     source: &str,
+    keep_holes: bool,
 ) -> Result<Lattice, ReadError> {
     let points = rows.rank.len();
     let fail = |place, text| Err(ReadError::at(source, place, Problem::Malformed(text)));
@@ -137,7 +142,6 @@ pub(super) fn place(
             ),
         );
     };
-    const NONE: usize = usize::MAX;
     let mut point = vec![NONE; size];
     for (at, (row, column)) in rows.rank.iter().zip(&columns.rank).enumerate() {
         let here = &mut point[row * columns.count + column];
@@ -155,7 +159,7 @@ pub(super) fn place(
         }
         *here = at;
     }
-    if let Some(first) = point.iter().position(|at| *at == NONE) {
+    if let Some(first) = point.iter().position(|at| *at == NONE).filter(|_| !keep_holes) {
         let missing = point.iter().filter(|at| **at == NONE).count();
         return fail(
             Place::File,

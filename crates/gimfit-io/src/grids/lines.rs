@@ -259,7 +259,7 @@ fn by_labels(
             return Err(ReadError::at(&source, place, Problem::Malformed(text)));
         }
     };
-    let lattice = place(&rows, &columns, &lines, &source)?;
+    let lattice = place(&rows, &columns, &lines, &source, options.keep_holes)?;
     let Lattice { point, rows: m, columns: n } = lattice;
     if let Some((rows, columns)) = options.shape.filter(|shape| *shape != (m, n)) {
         let problem = Problem::Malformed(format!(
@@ -278,7 +278,10 @@ fn by_labels(
     ));
     let mut coordinates = Vec::with_capacity(point.len() * slots.coordinates);
     for at in &point {
-        coordinates.extend(&table.coordinates[at * width..at * width + slots.coordinates]);
+        match at.checked_mul(width).and_then(|start| table.coordinates.get(start..)) {
+            Some(rest) => coordinates.extend(&rest[..slots.coordinates]),
+            None => coordinates.extend(std::iter::repeat_n(f64::NAN, slots.coordinates)),
+        }
     }
     Ok(PointGrid {
         source,

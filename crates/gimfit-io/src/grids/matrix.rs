@@ -50,7 +50,9 @@ pub(super) fn read(
             })?
         }
     };
-    sheet.tally.refuse_holes(sheet.z.len(), source)?;
+    if !options.keep_holes {
+        sheet.tally.refuse_holes(sheet.z.len(), source)?;
+    }
     let (m, n) = (sheet.lines.len(), form.columns);
     if let Some((rows, columns)) = options.shape.filter(|shape| *shape != (m, n)) {
         let problem = Problem::Malformed(format!(

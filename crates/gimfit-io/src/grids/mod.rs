@@ -40,6 +40,14 @@ pub fn read_grid(path: &Path, options: &GridOptions) -> Result<PointGrid, ReadEr
     read_grid_from(&bytes, &source, input::extension(path).as_deref(), options)
 }
 
+/// Whether bytes say of themselves that they hold a grid rather than a list of
+/// points: an ESRI ASCII grid, an array of three axes, a matrix of heights with
+/// abscissae, or lines that name their row and column.
+#[must_use]
+pub fn says_grid(bytes: &[u8], extension: Option<&str>) -> bool {
+    format::says_grid(bytes, extension)
+}
+
 /// Reads a grid from bytes. `source` names them in messages; `extension` is
 /// the ending of the file's name, with or without its dot, where there is one.
 pub fn read_grid_from(

@@ -66,7 +66,7 @@ pub(super) fn read(
     }
     let mut values = Values { array: &array, rows, columns, content, inexact: 0 };
     let (column_names, coordinates) = if content == Content::Heights {
-        values.check(&[0]).map_err(refuse)?;
+        values.check(&[0], options.keep_holes).map_err(refuse)?;
         let z = (0..rows * columns).map(|at| values.at(at, 0)).collect();
         notes.push(
             "The points are (x, y, z): x is the second index of the array, y the first, both from \
@@ -79,7 +79,7 @@ pub(super) fn read(
         let usual = (0..dimension).collect();
         let offer = Offer { names: &names, named: false, usual, why: "" };
         let selection = select(offer, &options.for_points(), source, &mut notes)?;
-        values.check(&selection.coordinates).map_err(refuse)?;
+        values.check(&selection.coordinates, options.keep_holes).map_err(refuse)?;
         if content == Content::List {
             notes.push(format!(
                 "The points are taken row by row, as {rows} rows of {columns} points each."
@@ -163,8 +163,8 @@ impl Values<'_> {
         value
     }
 
-    /// Fails if a value of the coordinates `wanted` is not finite.
-    fn check(&mut self, wanted: &[usize]) -> Result<(), String> {
+    /// Fails if a value of the coordinates `wanted` is not finite; holes may be kept.
+    fn check(&mut self, wanted: &[usize], keep_holes: bool) -> Result<(), String> {
         let mut missing = 0;
         let mut first = String::new();
         for at in 0..self.rows * self.columns {
@@ -193,6 +193,7 @@ impl Values<'_> {
         self.inexact = 0;
         match missing {
             0 => Ok(()),
+            _ if keep_holes => Ok(()),
             _ => Err(holes(missing, self.rows * self.columns, &first)),
         }
     }

@@ -26,6 +26,9 @@ pub struct GridOptions {
     pub delimiter: Option<Delimiter>,
     /// The decimal mark of text; found from the content if `None`.
     pub decimal: Option<DecimalMark>,
+    /// Whether cells without a value become NaN, to be counted, rather than
+    /// an error.
+    pub keep_holes: bool,
 }
 
 impl GridOptions {

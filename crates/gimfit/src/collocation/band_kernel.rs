@@ -4,7 +4,7 @@
 //! A band reaches equally far to both sides of the diagonal. How far is known at compile time
 //! (`B`), so that the rows at work stay in registers; the next size above serves the sizes between.
 
-use super::kernel::Rows;
+use super::kernel::{LANES, Rows};
 use crate::knots::MAX_DEGREE;
 
 /// Calls a function for the least compiled reach that is enough, and for the dimension.
@@ -109,6 +109,9 @@ pub(super) fn substitute(
         1 => dispatch!(substitute_of, reach, 1, (lower, upper, vectors, dimension)),
         2 => dispatch!(substitute_of, reach, 2, (lower, upper, vectors, dimension)),
         3 => dispatch!(substitute_of, reach, 3, (lower, upper, vectors, dimension)),
+        _ if dimension >= LANES => {
+            dispatch!(substitute_wide, reach, 0, (lower, upper, vectors, dimension));
+        }
         _ => dispatch!(substitute_of, reach, 0, (lower, upper, vectors, dimension)),
     }
 }
@@ -145,5 +148,67 @@ fn substitute_of<const B: usize, const N: usize, const D: usize>(
                 here[i] -= row[k + 1] * near[k * dimension + i];
             }
         }
+    }
+}
+
+/// As [`substitute_of`] for wide points, whose coordinates stay in registers [`LANES`] at a time.
+fn substitute_wide<const B: usize, const N: usize, const D: usize>(
+    lower: &[f64],
+    upper: &[f64],
+    vectors: &mut [f64],
+    dimension: usize,
+) {
+    let count = vectors.len() / dimension;
+    for j in 1..if B > 0 { count } else { 0 } {
+        let multipliers = &lower[j * B..][..B];
+        let reach = B.min(j);
+        let window = &mut vectors[(j - reach) * dimension..(j + 1) * dimension];
+        let (near, here) = window.split_at_mut(reach * dimension);
+        if reach == B {
+            subtract::<B, false>(std::array::from_fn(|k| multipliers[k]), 1.0, near, here);
+        } else {
+            for k in 0..reach {
+                for i in 0..dimension {
+                    here[i] -= multipliers[B - reach + k] * near[k * dimension + i];
+                }
+            }
+        }
+    }
+    for j in (0..count).rev() {
+        let row = &upper[j * (B + 1)..][..B + 1];
+        let reach = B.min(count - 1 - j);
+        let window = &mut vectors[j * dimension..(j + 1 + reach) * dimension];
+        let (here, near) = window.split_at_mut(dimension);
+        if reach == B {
+            subtract::<B, true>(std::array::from_fn(|k| row[k + 1]), row[0], near, here);
+        } else {
+            here.iter_mut().for_each(|x| *x *= row[0]);
+            for k in (0..reach).rev() {
+                for i in 0..dimension {
+                    here[i] -= row[k + 1] * near[k * dimension + i];
+                }
+            }
+        }
+    }
+}
+
+/// `here = scale * here - sum_k factors[k] near[k]`, the nearest neighbour last: the first in `near`
+/// where the sweep runs backward.
+#[inline(always)]
+fn subtract<const B: usize, const BACKWARD: bool>(
+    factors: [f64; B],
+    scale: f64,
+    near: &[f64],
+    here: &mut [f64],
+) {
+    let dimension = here.len();
+    let near: [&[f64]; B] = std::array::from_fn(|k| &near[k * dimension..][..dimension]);
+    for i in 0..dimension {
+        let mut x = if BACKWARD { here[i] * scale } else { here[i] };
+        for step in 0..B {
+            let k = if BACKWARD { B - 1 - step } else { step };
+            x -= factors[k] * near[k][i];
+        }
+        here[i] = x;
     }
 }

@@ -87,6 +87,10 @@ impl CollocationOperator for BandedCollocation {
         let max = if sum.is_finite() { largest.sqrt() } else { f64::NAN };
         ResidualNorms { max, max_index, rms: (sum / self.first.len() as f64).sqrt() }
     }
+
+    fn as_band(&self) -> Option<&BandedCollocation> {
+        Some(self)
+    }
 }
 
 impl CollocationMatrix for BandedCollocation {

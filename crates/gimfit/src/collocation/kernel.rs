@@ -102,6 +102,49 @@ fn residual_of<const W: usize, const D: usize>(
     (largest.max(0.0), index, sum)
 }
 
+/// Numbers that are worked on side by side where the dimension is large.
+pub(super) const LANES: usize = 8;
+
+/// Row `j` of `A x` for wide rows of `length` numbers.
+pub(super) fn combine(rows: Rows<'_>, j: usize, x: &[f64], length: usize, result: &mut [f64]) {
+    match rows.width {
+        2 => combine_of::<2>(rows, j, x, length, result),
+        3 => combine_of::<3>(rows, j, x, length, result),
+        4 => combine_of::<4>(rows, j, x, length, result),
+        6 => combine_of::<6>(rows, j, x, length, result),
+        _ => {
+            let (first, weights) = (rows.first[j], &rows.weights[j * rows.width..][..rows.width]);
+            let result = &mut result[..length];
+            result.fill(0.0);
+            for (k, &weight) in weights.iter().enumerate() {
+                let row = &x[rows.column(first, k) * length..][..length];
+                result.iter_mut().zip(row).for_each(|(sum, x)| *sum += weight * x);
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn combine_of<const W: usize>(
+    rows: Rows<'_>,
+    j: usize,
+    x: &[f64],
+    length: usize,
+    result: &mut [f64],
+) {
+    let first = rows.first[j];
+    let weights: [f64; W] = std::array::from_fn(|k| rows.weights[j * W + k]);
+    let near: [&[f64]; W] = std::array::from_fn(|k| &x[rows.column(first, k) * length..][..length]);
+    let result = &mut result[..length];
+    for i in 0..length {
+        let mut sum = 0.0;
+        for k in 0..W {
+            sum += weights[k] * near[k][i];
+        }
+        result[i] = sum;
+    }
+}
+
 /// `result = A x`.
 pub(crate) fn apply(rows: Rows<'_>, x: &[f64], dimension: usize, result: &mut [f64]) {
     dispatch!(apply_of, rows.width, dimension, rows, x, dimension, result);

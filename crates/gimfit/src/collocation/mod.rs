@@ -46,6 +46,11 @@ pub trait CollocationOperator: std::fmt::Debug {
         dimension: usize,
         result: &mut [f64],
     ) -> ResidualNorms;
+
+    /// The rows of a band, where that is all there is: grids meet them faster.
+    fn as_band(&self) -> Option<&BandedCollocation> {
+        None
+    }
 }
 
 /// A square collocation matrix whose entries can be had: what rules beyond plain weights ask for.

@@ -3,7 +3,6 @@
 use super::solve::{Size, norm};
 use super::{CurveFit, KeptFit, SurfaceFit};
 use crate::Error;
-use crate::geometry::{Curve, Surface};
 use crate::iteration::Termination;
 use crate::points::{Extent, PointGrid, Points, PointsView};
 use crate::projection::{largest_deviation, largest_surface_deviation};
@@ -31,7 +30,7 @@ impl CurveFit {
     pub fn member(&self, iteration: usize) -> Result<CurveFit, Error> {
         let kept = kept(&self.sequence, iteration)?;
         let dimension = self.curve.dimension();
-        let curve = Curve::new(self.curve.knots().clone(), kept.control_points.clone())?;
+        let curve = self.curve.with_control_points(kept.control_points.clone())?;
         let mut vectors = self.difference_vectors.coordinates().to_vec();
         // The data, from the fit that was returned and what it left.
         let mut data = vectors.clone();
@@ -48,7 +47,7 @@ impl CurveFit {
         }
         let measured = measure(&data, &vectors, dimension, |size, view, residuals| {
             let control = size.scale.apply(kept.control_points.coordinates()).into_owned();
-            let curve = Curve::new(curve.knots().clone(), Points::new(dimension, control)?)?;
+            let curve = curve.with_control_points(Points::new(dimension, control)?)?;
             largest_deviation(&curve, view, &self.parameters, residuals)
         })?;
         let mut report = self.report.clone();
@@ -76,9 +75,8 @@ impl SurfaceFit {
         let dimension = self.surface.dimension();
         let shape = self.surface.control_net().shape();
         let net = |control: Vec<f64>| PointGrid::new(shape, dimension, control);
-        let knots = self.surface.knots();
         let surface =
-            Surface::new(knots.clone(), net(kept.control_points.coordinates().to_vec())?)?;
+            self.surface.with_control_net(net(kept.control_points.coordinates().to_vec())?)?;
         let [rows, columns] = self.parameters.each_ref().map(|t| t.as_slice());
         let mut vectors = self.difference_vectors.coordinates().to_vec();
         let mut data = vectors.clone();
@@ -96,7 +94,7 @@ impl SurfaceFit {
         }
         let measured = measure(&data, &vectors, dimension, |size, view, residuals| {
             let control = size.scale.apply(kept.control_points.coordinates()).into_owned();
-            let surface = Surface::new(knots.clone(), net(control)?)?;
+            let surface = surface.with_control_net(net(control)?)?;
             largest_surface_deviation(&surface, view, [rows, columns], residuals)
         })?;
         let cell = |index: usize| [index / columns.len(), index % columns.len()];

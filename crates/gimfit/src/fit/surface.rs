@@ -16,6 +16,7 @@ use crate::parameters::{Parameterization, Parameters, assign_grid_parameters};
 use crate::points::{Extent, GridView, PointGrid, Points};
 use crate::projection::largest_surface_deviation;
 use crate::report::{RunReport, SurfaceReport};
+use std::borrow::Cow;
 
 /// A fitted surface and the account of how it came about.
 #[derive(Debug, Clone, PartialEq)]
@@ -117,9 +118,12 @@ pub fn fit_surface_observed(
     };
     let scale = size.scale;
     let cell = |index: usize| [index / shape[1], index % shape[1]];
-    let net = unscaled(surface.control_net().points().clone(), scale)?;
-    let surface =
-        Surface::new(knots, PointGrid::new(net_shape, dimension, net.into_coordinates())?)?;
+    let surface = if scale.is_identity() {
+        surface
+    } else {
+        let net = unscaled(surface.control_net().points().clone(), scale)?;
+        Surface::new(knots, PointGrid::new(net_shape, dimension, net.into_coordinates())?)?
+    };
     let report = SurfaceReport {
         points: shape,
         control_points: net_shape,
@@ -149,12 +153,12 @@ pub fn fit_surface_observed(
 const CLOSING_GAP: f64 = 1e-9;
 
 /// The grid without the repetition of its first row or column in closed directions.
-fn open_up(
-    grid: GridView<'_>,
+fn open_up<'a>(
+    grid: GridView<'a>,
     size: &Size,
     options: &SurfaceOptions,
     choices: &mut Vec<String>,
-) -> ([usize; 2], Vec<f64>) {
+) -> ([usize; 2], Cow<'a, [f64]>) {
     let [mut rows, mut columns] = grid.shape();
     let limit = CLOSING_GAP * size.extent.diagonal();
     let near = |a: &[f64], b: &[f64]| {
@@ -177,13 +181,16 @@ fn open_up(
             columns -= 1;
         }
     }
-    let coordinates = (0..rows)
-        .flat_map(|i| {
-            let start = i * grid.shape()[1] * grid.dimension();
-            &grid.points().coordinates()[start..][..columns * grid.dimension()]
-        })
-        .copied()
-        .collect();
+    let given = grid.points().coordinates();
+    let (line, kept) = (grid.shape()[1] * grid.dimension(), columns * grid.dimension());
+    let coordinates = if line == kept {
+        // Whole rows lie one after another.
+        Cow::Borrowed(&given[..rows * line])
+    } else {
+        Cow::Owned(
+            given.chunks_exact(line).take(rows).flat_map(|row| &row[..kept]).copied().collect(),
+        )
+    };
     ([rows, columns], coordinates)
 }
 

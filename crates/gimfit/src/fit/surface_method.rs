@@ -6,7 +6,7 @@ use crate::Error;
 use crate::collocation::{CollocationMatrix, largest_jacobi_eigenvalue, smallest_eigenvalue_of};
 use crate::iteration::UpdateRule;
 use crate::iteration::update::{
-    Across, Along, Both, Chebyshev, GaussSeidel, Jacobi, Pia, Preconditioned, Staged,
+    Across, Along, Both, Chebyshev, GaussSeidel, Jacobi, NetPreconditioned, Pia, Staged,
 };
 
 /// The operators of both directions.
@@ -45,9 +45,7 @@ pub(super) fn choose_both<'a>(
         // Eigenvalues of a Kronecker product are products.
         Ok(u.for_weights() * v.for_weights())
     };
-    let banded = |q: Option<usize>| -> Result<_, Error> {
-        Ok(Both::new(Preconditioned::new(u, q)?, Preconditioned::new(v, q)?, columns))
-    };
+    let banded = |q: Option<usize>| NetPreconditioned::new(u, v, q);
     let (name, rule): (_, Box<dyn UpdateRule + 'a>) = match method {
         Method::Auto if gradual > 0 => {
             choices.push(format!(

@@ -72,7 +72,13 @@ impl<'a> IterationState<'a> {
     /// of a control point.
     #[must_use]
     pub fn rounding_level(&self) -> f64 {
-        ROUNDING * self.control().iter().fold(0.0, |most: f64, x| most.max(x.abs()))
+        // Several running maxima, so that none waits for the one before.
+        let mut most = [0.0; 8];
+        let (chunks, rest) = self.control().as_chunks::<8>();
+        for chunk in chunks {
+            (0..8).for_each(|k| most[k] = f64::max(most[k], chunk[k].abs()));
+        }
+        ROUNDING * most.iter().chain(rest).fold(0.0, |most: f64, x| most.max(x.abs()))
     }
 
     /// Steps taken.
