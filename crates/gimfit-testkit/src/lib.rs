@@ -3,6 +3,7 @@
 
 pub mod anderson;
 pub mod blending;
+pub mod convexity;
 pub mod dense;
 pub mod generate;
 pub mod nearest;

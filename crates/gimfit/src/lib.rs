@@ -18,6 +18,7 @@
 //!
 //! * [`error`]: what can be wrong with a request
 //! * [`points`]: what we are given
+//! * [`shape`]: which way planar polygons turn
 //! * [`parameters`]: where each data point sits on the curve
 //! * [`knots`]: knot vectors and their placement
 //! * [`basis`]: blending functions
@@ -35,6 +36,8 @@ pub mod error;
 mod memory;
 pub mod points;
 mod threads;
+
+pub mod shape;
 
 pub mod parameters;
 
@@ -58,9 +61,9 @@ pub mod fit;
 
 pub use error::Error;
 pub use fit::{
-    BlendingCurveFit, BlendingOptions, BlendingSurfaceFit, BlendingSurfaceOptions, CurveDiagnosis,
-    CurveFit, CurveOptions, IterationWeight, KeptFit, Method, SurfaceFit, SurfaceOptions,
-    SurfaceWeight, diagnose_blending_curve, diagnose_curve, fit_blending_curve,
+    BlendingCurveFit, BlendingOptions, BlendingSurfaceFit, BlendingSurfaceOptions, Convexity,
+    CurveDiagnosis, CurveFit, CurveOptions, IterationWeight, KeptFit, Method, SurfaceFit,
+    SurfaceOptions, SurfaceWeight, diagnose_blending_curve, diagnose_curve, fit_blending_curve,
     fit_blending_surface, fit_curve, fit_curve_observed, fit_surface, fit_surface_observed,
 };
 pub use geometry::{BlendingCurve, BlendingSurface, Curve, Surface};
@@ -68,7 +71,7 @@ pub use iteration::{HistoryEntry, Termination};
 pub use knots::{KnotPlacement, KnotVector};
 pub use parameters::Parameterization;
 pub use points::{Duplicates, GridView, PointGrid, Points, PointsView};
-pub use report::{CurveReport, RunReport, SurfaceReport};
+pub use report::{CurveReport, RunReport, ShapeReport, SurfaceReport};
 
 /// The Rust examples of the README and of the documentation pages, run as tests.
 #[cfg(doctest)]

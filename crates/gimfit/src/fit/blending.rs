@@ -153,6 +153,7 @@ pub fn fit_blending_curve_observed<'a>(
         parameterization: parameterization_name(&chosen),
         knot_placement: "bezier",
         spacing_ratio: spacing_ratio(&values, None),
+        shape: None,
         run: solved.run,
         max_residual_index: norms.max_index,
         max_deviation: scale.undo(deviation),

@@ -1,5 +1,6 @@
 //! Interpolation of ordered points by a B-spline curve.
 
+use super::convex::{Interpolating, Keeping};
 use super::method::choose;
 use super::prepare::{Prepared, prepare};
 use super::solve::{Size, Task, norm, solve, unscaled};
@@ -178,9 +179,26 @@ fn fit_problem(
     let Interpolation { operator, layout } = interpolation(&parameters, &knots)?;
     let dimension = data.dimension();
     let gradual = options.keep.iter().copied().max().unwrap_or(0).min(options.iterations);
-    let mut chosen = choose(options.method, &options.weight, &operator, dimension, gradual)?;
+    let mut keeping = match options.convexity {
+        Some(convexity) => Some(Keeping::new(convexity, data, parameters.period().is_some())?),
+        None => None,
+    };
+    let mut chosen = match &mut keeping {
+        Some(keeping) => {
+            let threshold = size.threshold(options.convexity)?;
+            let problem = Interpolating { data, parameters: &parameters, knots: &knots, layout };
+            keeping.choose(&problem, options, &operator, threshold, gradual)?
+        }
+        None => choose(options.method, &options.weight, &operator, dimension, gradual)?,
+    };
     let stopping = size.stopping(options.residual, options.iterations, &mut chosen.choices)?;
-    let expand = |control| layout.expand(control, dimension);
+    let expand = |control| {
+        let stored = layout.expand(control, dimension);
+        match &keeping {
+            Some(keeping) => keeping.refine(stored),
+            None => stored,
+        }
+    };
     let task = Task {
         operator: &operator,
         data: data.coordinates(),
@@ -195,7 +213,13 @@ fn fit_problem(
     drop(operator);
 
     let (parameters, spacing_ratio) = finish_parameters(parameters, &knots, layout);
-    let curve = Curve::new(knots, Points::new(dimension, expand(solved.control))?)?;
+    let shape = keeping.as_ref().map(|keeping| keeping.report(&solved.control));
+    let control_points = Points::new(dimension, expand(solved.control))?;
+    let knots = match &keeping {
+        Some(keeping) => keeping.knots(knots),
+        None => knots,
+    };
+    let curve = Curve::new(knots, control_points)?;
     let norms = solved.norms;
     let (max_deviation, max_deviation_index) = if norms.max <= size.rounding_level() {
         // Down there a foot point is decided by rounding; the residual bounds the distance.
@@ -214,6 +238,7 @@ fn fit_problem(
         parameterization: "given",
         knot_placement: "given",
         spacing_ratio,
+        shape,
         run: solved.run,
         max_residual_index: norms.max_index,
         max_deviation: scale.undo(max_deviation),

@@ -2,8 +2,10 @@
 
 mod blending;
 mod blending_surface;
+mod convex;
 mod curve;
 mod diagnose;
+mod intervals;
 mod keep;
 mod member;
 mod method;
@@ -21,7 +23,7 @@ pub use curve::{CurveFit, fit_curve, fit_curve_observed, interpolate};
 pub use diagnose::{CurveDiagnosis, diagnose_blending_curve, diagnose_curve};
 pub use keep::KeptFit;
 pub use options::{
-    BlendingOptions, BlendingSurfaceOptions, CurveOptions, IterationWeight, Method, SurfaceOptions,
-    SurfaceWeight,
+    BlendingOptions, BlendingSurfaceOptions, Convexity, CurveOptions, IterationWeight, Method,
+    SurfaceOptions, SurfaceWeight,
 };
 pub use surface::{SurfaceFit, fit_surface, fit_surface_observed};

@@ -52,6 +52,24 @@ pub enum IterationWeight {
     PerPoint(Vec<f64>),
 }
 
+/// How a planar control polygon keeps the turns of the data polygon, one by one.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub enum Convexity {
+    /// The interpolant where it turns as the data do, over more knots if its control polygon needs
+    /// them; otherwise the closest fit that does, in the sense of least squares.
+    #[default]
+    Closest,
+    /// Algorithm 1 of Lin, Wang and Dong (2004) around the steps of the method: plain PIA where that
+    /// is [`Method::Auto`]. It may stall far from the data.
+    Published {
+        /// The paper's D, a length in the unit of the data: the bisection for the longest step ends
+        /// when no control point would move farther than that. `None`: 1e-12 of the extent, or what
+        /// rounding of the coordinates allows if that is more.
+        threshold: Option<f64>,
+    },
+}
+
 /// What a caller chooses for [`fit_curve`](super::fit_curve); the defaults interpolate by a cubic.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurveOptions {
@@ -64,6 +82,9 @@ pub struct CurveOptions {
     pub parameterization: Option<Parameterization>,
     /// How knots are placed; `None`: averaged, uniform for the chord-ratio parameterization.
     pub knot_placement: Option<KnotPlacement>,
+    /// Whether, and how, the control polygon keeps the turns of the data polygon; planar curves
+    /// only.
+    pub convexity: Option<Convexity>,
     /// The rule that moves the control points.
     pub method: Method,
     /// Its weight.
@@ -86,6 +107,7 @@ impl Default for CurveOptions {
             closed: false,
             parameterization: None,
             knot_placement: None,
+            convexity: None,
             method: Method::Auto,
             weight: IterationWeight::Auto,
             iterations: 1000,

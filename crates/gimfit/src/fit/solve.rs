@@ -1,9 +1,9 @@
 //! What every recipe shares: run a rule to its stop, look at what it left, and bring everything
 //! back into the unit of the data.
 
-use super::KeptFit;
 use super::keep::Keeper;
 use super::method::ChosenRule;
+use super::{Convexity, KeptFit};
 use crate::Error;
 use crate::collocation::{CollocationOperator, ResidualNorms};
 use crate::iteration::{IterationState, Observer, Outcome, ROUNDING, Stopping, Termination, run};
@@ -37,6 +37,24 @@ impl Size {
 
     fn diagonal(&self) -> f64 {
         self.scale.up(self.extent.diagonal())
+    }
+
+    /// The length, scaled, below which convexity-preserving PIA decides no more.
+    pub(super) fn threshold(&self, convexity: Option<Convexity>) -> Result<f64, Error> {
+        match convexity {
+            Some(Convexity::Published { threshold: Some(length) }) => {
+                if length > 0.0 && length.is_finite() {
+                    Ok(self.scale.up(length))
+                } else {
+                    Err(Error::OutOfRange {
+                        what: "threshold of convexity".into(),
+                        value: length,
+                        rule: "it must be a length above 0, and finite",
+                    })
+                }
+            }
+            _ => Ok((DEFAULT_RESIDUAL * self.diagonal()).max(self.rounding_level())),
+        }
     }
 
     /// When to stop, for the residual asked for, or the default.

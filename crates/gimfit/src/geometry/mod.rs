@@ -1,12 +1,16 @@
 //! What a fit yields: curves and surfaces that can be evaluated, derived and drawn.
 
+mod bend;
 mod blending;
 mod curve;
+mod insertion;
 mod rational;
 mod surface;
 
+pub(crate) use bend::bend_signs;
 pub use blending::{BlendingCurve, BlendingSurface};
 pub use curve::Curve;
+pub(crate) use insertion::KnotInsertion;
 pub use surface::Surface;
 
 use crate::Error;

@@ -34,21 +34,28 @@ pub fn run(
         let entry = entry_of(state);
         trace.push(entry);
         let flow = observer.observe(Snapshot { entry, control: state.control() });
-        if let Some(reason) = judge.judge(entry, || state.rounding_level()) {
+        let verdict = judge.judge(entry, || state.rounding_level());
+        if let Some(reason) = verdict
+            && !(reason == Termination::Stalled && rule.ends_itself())
+        {
             break reason;
         }
         if flow == Flow::Stop {
             break Termination::Cancelled;
         }
-        if rule.is_stuck() {
-            break Termination::Stalled;
+        if let Some(reason) = rule.ending() {
+            break reason;
         }
         state.step(rule);
     };
     let iterations = state.iteration();
     let best = judge.best_iteration();
-    // All iterations, or as many as the observer allowed, are what the caller asked for.
-    let asked = matches!(termination, Termination::Iterations | Termination::Cancelled);
+    // All iterations, or as many as the observer allowed, are what the caller asked for; and a
+    // closest fit is the last one, which is closest as a whole, not at its worst point.
+    let asked = matches!(
+        termination,
+        Termination::Iterations | Termination::Cancelled | Termination::Constrained
+    );
     if !asked && best < iterations {
         rule.reset();
         state.restart();

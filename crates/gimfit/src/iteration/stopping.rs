@@ -13,6 +13,9 @@ pub enum Termination {
     Iterations,
     /// The residual stopped falling above the one asked for.
     Stalled,
+    /// The fit is the closest one that keeps what it has to keep, such as the shape of the data; the
+    /// residual asked for lies beyond that.
+    Constrained,
     /// The residual grew without bound or ceased to be a number.
     Diverged,
     /// An observer asked to stop.
@@ -27,6 +30,7 @@ impl Termination {
             Self::Residual => "residual",
             Self::Iterations => "iterations",
             Self::Stalled => "stalled",
+            Self::Constrained => "constrained",
             Self::Diverged => "diverged",
             Self::Cancelled => "cancelled",
         }

@@ -1,6 +1,6 @@
 //! The account of a curve fit.
 
-use super::RunReport;
+use super::{RunReport, ShapeReport};
 
 /// The account of a curve fit. Lengths are in the unit of the data; indices count the points
 /// fitted.
@@ -22,6 +22,8 @@ pub struct CurveReport {
     pub knot_placement: &'static str,
     /// Longest step of the parameters over the shortest.
     pub spacing_ratio: f64,
+    /// The shape kept, where one was to be.
+    pub shape: Option<ShapeReport>,
     /// The run.
     pub run: RunReport,
     /// The point with the largest residual.

@@ -2,8 +2,10 @@
 
 mod curve;
 mod run;
+mod shape;
 mod surface;
 
 pub use curve::CurveReport;
 pub use run::RunReport;
+pub use shape::ShapeReport;
 pub use surface::SurfaceReport;

@@ -1,7 +1,11 @@
 //! Published rules: how difference vectors become adjusting vectors. One file each.
 
+use super::Termination;
+
 mod anderson;
 mod chebyshev;
+mod closest;
+mod convex;
 mod gauss_seidel;
 mod grid;
 mod jacobi;
@@ -13,6 +17,8 @@ mod weighted;
 
 pub use anderson::Anderson;
 pub use chebyshev::Chebyshev;
+pub use closest::ClosestConvex;
+pub use convex::ConvexityPreserving;
 pub use gauss_seidel::{GaussSeidel, Sor};
 pub use grid::{Across, Along, Both};
 pub use jacobi::Jacobi;
@@ -46,6 +52,18 @@ pub trait UpdateRule: std::fmt::Debug {
         false
     }
 
+    /// Why the run must end after the last step, if it must. A rule that moves within limits knows
+    /// when it has come as close as they let it: [`Constrained`](Termination::Constrained).
+    fn ending(&self) -> Option<Termination> {
+        self.is_stuck().then_some(Termination::Stalled)
+    }
+
+    /// Whether the rule tells by [`UpdateRule::ending`] when it gets no further, so that a largest
+    /// residual that no longer falls is no reason to stop: that of a closest fit may rise.
+    fn ends_itself(&self) -> bool {
+        false
+    }
+
     /// Forgets the steps taken, before a run is repeated.
     fn reset(&mut self) {}
 }
@@ -57,6 +75,14 @@ impl<R: UpdateRule + ?Sized> UpdateRule for Box<R> {
 
     fn is_stuck(&self) -> bool {
         (**self).is_stuck()
+    }
+
+    fn ending(&self) -> Option<Termination> {
+        (**self).ending()
+    }
+
+    fn ends_itself(&self) -> bool {
+        (**self).ends_itself()
     }
 
     fn reset(&mut self) {

@@ -1,6 +1,7 @@
 //! One rule for the first steps, another for the rest: a gradual family of fits, then the limit.
 
 use super::{Step, UpdateRule};
+use crate::iteration::Termination;
 
 /// Runs `first` for a number of steps, then `then`.
 #[derive(Debug)]
@@ -28,6 +29,14 @@ impl<A: UpdateRule, B: UpdateRule> UpdateRule for Staged<A, B> {
 
     fn is_stuck(&self) -> bool {
         self.then.is_stuck()
+    }
+
+    fn ending(&self) -> Option<Termination> {
+        self.then.ending()
+    }
+
+    fn ends_itself(&self) -> bool {
+        self.then.ends_itself()
     }
 
     fn reset(&mut self) {

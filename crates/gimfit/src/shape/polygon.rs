@@ -1,0 +1,224 @@
+//! The shape that a fit is to keep: the turns of the data polygon, one by one.
+
+use super::turn::{Turn, cross};
+
+/// The turns of a planar polygon.
+///
+/// A straight corner of the data has no sign to keep. Between two left turns it is taken for one
+/// that must not turn right, and so on; a straight run between a left and a right turn belongs half
+/// to either, its middle corner, if there is one, to neither. Where everything is straight nothing
+/// is to be kept.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shape {
+    closed: bool,
+    points: usize,
+    corners: Vec<Corner>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Corner {
+    /// The side it must not leave; [`Turn::Straight`] where it may turn as it likes.
+    side: Turn,
+    /// Whether the data are straight here, so that a straight corner will do.
+    straight: bool,
+}
+
+impl Shape {
+    /// The shape of a polygon of shape (points, 2), whose last point is followed by its first where
+    /// it is closed.
+    #[must_use]
+    pub fn of(polygon: &[f64], closed: bool) -> Self {
+        let points = polygon.len() / 2;
+        let count = if points < 3 {
+            0
+        } else if closed {
+            points
+        } else {
+            points - 2
+        };
+        let mut shape = Self { closed, points, corners: Vec::with_capacity(count) };
+        for k in 0..count {
+            let side = Turn::of(shape.cross_of(k, |i| point(polygon, i)));
+            shape.corners.push(Corner { side, straight: side == Turn::Straight });
+        }
+        shape.settle_straight_runs();
+        shape
+    }
+
+    /// Gives the corners of straight runs the sides of their neighbours.
+    fn settle_straight_runs(&mut self) {
+        let count = self.corners.len();
+        // Start where a run cannot go round the seam.
+        let Some(start) = self.corners.iter().position(|corner| !corner.straight) else { return };
+        let start = if self.closed { start } else { 0 };
+        let mut k = 0;
+        while k < count {
+            if !self.corners[(start + k) % count].straight {
+                k += 1;
+                continue;
+            }
+            let length =
+                (k..count).take_while(|&k| self.corners[(start + k) % count].straight).count();
+            let end = k + length;
+            let before = (k > 0).then(|| self.corners[(start + k - 1) % count].side);
+            let after =
+                (end < count || self.closed).then(|| self.corners[(start + end) % count].side);
+            let (first, second) = match (before, after) {
+                (Some(before), Some(after)) => (before, after),
+                (Some(only), None) | (None, Some(only)) => (only, only),
+                (None, None) => return,
+            };
+            for i in 0..length {
+                let side = if first == second || 2 * i + 1 < length {
+                    first
+                } else if 2 * i + 1 == length {
+                    Turn::Straight
+                } else {
+                    second
+                };
+                self.corners[(start + k + i) % count].side = side;
+            }
+            k = end;
+        }
+    }
+
+    /// Corners, straight ones included.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.corners.len()
+    }
+
+    /// Whether the polygon has no corners: fewer than three points.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.corners.is_empty()
+    }
+
+    /// Whether the polygon returns to its first point.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        self.closed
+    }
+
+    /// How many corners of the polygon turn this way.
+    #[must_use]
+    pub fn count(&self, turn: Turn) -> usize {
+        let is = |corner: &&Corner| match turn {
+            Turn::Straight => corner.straight,
+            _ => corner.side == turn && !corner.straight,
+        };
+        self.corners.iter().filter(is).count()
+    }
+
+    /// The side that corner `k` must not leave; [`Turn::Straight`] where it is free.
+    #[must_use]
+    pub fn side(&self, k: usize) -> Turn {
+        self.corners[k].side
+    }
+
+    /// The side kept at a point of the polygon; an open one has no corner at its ends, which take
+    /// that of their neighbours.
+    pub(crate) fn side_at(&self, point: usize) -> Turn {
+        let last = self.corners.len() - 1;
+        let k =
+            if self.closed { (point + last) % (last + 1) } else { point.clamp(1, last + 1) - 1 };
+        self.corners[k].side
+    }
+
+    /// The three points of corner `k`.
+    #[must_use]
+    pub fn points_of(&self, k: usize) -> [usize; 3] {
+        let wrap = |i: usize| if i < self.points { i } else { i - self.points };
+        [k, wrap(k + 1), wrap(k + 2)]
+    }
+
+    /// Whether another polygon of as many points, shape (points, 2), turns the same way at every
+    /// corner.
+    #[must_use]
+    pub fn is_kept_by(&self, polygon: &[f64]) -> bool {
+        self.holds_for(|i| point(polygon, i), Corner::allows)
+    }
+
+    /// The same for a polygon that has moved by `scale` times some vectors, as it would be stored.
+    pub(crate) fn is_kept_after(&self, polygon: &[f64], vectors: &[f64], scale: f64) -> bool {
+        self.holds_for(|i| moved(polygon, vectors, scale, i), Corner::allows)
+    }
+
+    /// Whether a moved polygon keeps the shape and has no straight corner where it has a side.
+    pub(crate) fn is_strict_after(&self, polygon: &[f64], vectors: &[f64], scale: f64) -> bool {
+        self.holds_for(
+            |i| moved(polygon, vectors, scale, i),
+            |corner, turn| corner.side == turn || corner.side == Turn::Straight,
+        )
+    }
+
+    fn holds_for(
+        &self,
+        point: impl Fn(usize) -> [f64; 2] + Copy,
+        allowed: impl Fn(Corner, Turn) -> bool,
+    ) -> bool {
+        self.corners
+            .iter()
+            .enumerate()
+            .all(|(k, &corner)| allowed(corner, Turn::of(self.cross_of(k, point))))
+    }
+
+    /// The cross product of the legs at corner `k`, with the sign of the exact one.
+    pub(crate) fn cross_of(&self, k: usize, point: impl Fn(usize) -> [f64; 2]) -> f64 {
+        let [a, b, c] = self.points_of(k).map(point);
+        cross(a, b, c)
+    }
+}
+
+impl Corner {
+    fn allows(self, turn: Turn) -> bool {
+        turn == self.side
+            || self.side == Turn::Straight
+            || (self.straight && turn == Turn::Straight)
+    }
+}
+
+pub(crate) fn point(polygon: &[f64], i: usize) -> [f64; 2] {
+    [polygon[2 * i], polygon[2 * i + 1]]
+}
+
+fn moved(polygon: &[f64], vectors: &[f64], scale: f64, i: usize) -> [f64; 2] {
+    [polygon[2 * i] + scale * vectors[2 * i], polygon[2 * i + 1] + scale * vectors[2 * i + 1]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sides(polygon: &[[f64; 2]], closed: bool) -> Vec<f64> {
+        let shape = Shape::of(polygon.as_flattened(), closed);
+        (0..shape.len()).map(|k| shape.side(k).sign()).collect()
+    }
+
+    #[test]
+    fn straight_runs_take_the_sides_of_their_neighbours() {
+        let square =
+            [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 1.0], [2.0, 2.0], [0.0, 2.0], [0.0, 1.0]];
+        assert_eq!(sides(&square, true), [1.0; 7]);
+        assert_eq!(sides(&square, false), [1.0; 5]);
+        // Left, three straight corners, right: the middle one is free.
+        let step =
+            [[0.0, 1.0], [0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0], [4.0, 0.0], [4.0, -1.0]];
+        assert_eq!(sides(&step, false), [1.0, 1.0, 0.0, -1.0, -1.0]);
+        let line: Vec<[f64; 2]> = (0..5).map(|i| [f64::from(i), 0.0]).collect();
+        assert_eq!(sides(&line, false), [0.0; 3]);
+        assert_eq!(sides(&line[..2], true), [0.0; 0]);
+    }
+
+    #[test]
+    fn a_straight_corner_of_the_data_may_stay_straight_but_not_turn_away() {
+        let data = [0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 2.0, 0.0, 2.0, 1.0];
+        let shape = Shape::of(&data, false);
+        assert!(shape.is_kept_by(&data) && !shape.is_strict_after(&data, &[0.0; 10], 1.0));
+        let out = [0.0, 1.0, 0.0, 0.0, 1.0, -0.1, 2.0, 0.0, 2.0, 1.0];
+        let into = [0.0, 1.0, 0.0, 0.0, 1.0, 0.1, 2.0, 0.0, 2.0, 1.0];
+        assert!(shape.is_kept_by(&out) && !shape.is_kept_by(&into));
+        assert_eq!(shape.count(Turn::Left), 2);
+        assert_eq!(shape.count(Turn::Straight), 1);
+    }
+}
