@@ -89,6 +89,7 @@ Examples:
   gimfit curve airfoil.dat -o airfoil.svg
   gimfit curve coast.csv --closed -o coast.json -o coast.png
   gimfit curve track.gpx --columns east,north,up --method pia --keep 0,2,4,15,30 -o track.svg
+  gimfit curve outline.csv --closed --convex -o outline.svg
   gimfit curve signal.csv --abscissa x -o signal.json"
 )]
 pub(crate) struct CurveArguments {
@@ -97,6 +98,32 @@ pub(crate) struct CurveArguments {
 
     #[command(flatten)]
     pub(crate) shape: ShapeArguments,
+
+    /// Keep the turns of a planar data polygon, one by one: closest (the interpolant where it turns
+    /// as the data do, otherwise the closest fit that does) or published (Lin, Wang and Dong 2004;
+    /// may stall). Bare --convex is closest
+    #[arg(
+        long,
+        value_enum,
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "closest",
+        value_name = "WAY",
+        help_heading = "Curve"
+    )]
+    pub(crate) convex: Option<ConvexChoice>,
+
+    /// With --convex=published: bisect steps until no control point moves farther than this, in the
+    /// unit of the points [default: 1e-12 of the extent, or what rounding allows]
+    #[arg(
+        long,
+        value_name = "D",
+        requires = "convex",
+        value_parser = values::number,
+        allow_negative_numbers = true,
+        help_heading = "Curve"
+    )]
+    pub(crate) convex_threshold: Option<f64>,
 
     #[command(flatten)]
     pub(crate) iteration: IterationArguments,
@@ -337,6 +364,15 @@ pub(crate) enum DuplicatesChoice {
     Drop,
     /// Replace each run by its mean
     Merge,
+}
+
+/// Ways to keep the turns of the data.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ConvexChoice {
+    /// The interpolant if it turns as the data do, otherwise the closest fit that does
+    Closest,
+    /// Steps of the method, cut so that no turn changes
+    Published,
 }
 
 impl From<DuplicatesChoice> for Duplicates {

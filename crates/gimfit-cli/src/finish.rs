@@ -1,6 +1,6 @@
 //! The end of every fit: files, what is printed, and how the run is judged.
 
-use crate::arguments::MethodChoice;
+use crate::arguments::{ConvexChoice, MethodChoice};
 use crate::outputs::{Outputs, Product, Wanted};
 use crate::targets::is_standard;
 use crate::{Ending, output};
@@ -10,6 +10,7 @@ use gimfit::Termination;
 pub(crate) struct Finish<'a> {
     pub(crate) wanted: Wanted<'a>,
     pub(crate) method: MethodChoice,
+    pub(crate) convex: Option<ConvexChoice>,
     pub(crate) run: Run,
 }
 
@@ -71,6 +72,17 @@ impl Finish<'_> {
     fn advice(&self) -> &'static str {
         let auto = self.method == MethodChoice::Auto;
         match self.run.termination {
+            Termination::Constrained => {
+                "; no fit nearby that turns as the data do comes closer: without --convex the curve \
+                 passes through the points"
+            }
+            Termination::Stalled if self.convex == Some(ConvexChoice::Published) => {
+                "; the published algorithm stalls where a corner has become straight: try --convex"
+            }
+            Termination::Stalled if self.convex.is_some() => {
+                "; rounding, or control points that fall together, allow no further step"
+            }
+            Termination::Iterations if self.convex.is_some() => "; allow more with --iterations",
             Termination::Iterations if auto => "; allow more with --iterations",
             Termination::Iterations => "; allow more with --iterations, or use --method auto",
             Termination::Stalled if auto => {

@@ -163,3 +163,29 @@ fn points_where_a_document_is_wanted_are_told_apart() {
         .code(2)
         .says(&["is no gimfit document", "gimfit curve"]);
 }
+
+#[test]
+fn a_shape_that_forbids_the_residual_is_told_with_what_to_do() {
+    let corner = "x,y\n0,3\n0,2\n0.05,1\n0.2,0.2\n1,0.05\n2,0\n3,0.0001\n4,0.01\n";
+    let place = Place::with("corner.csv", corner);
+    let ran = place.run("curve corner.csv --convex -o fit.json").code(1);
+    ran.says(&["ended by constrained", "without --convex"]);
+    let report = place.document("fit.json")["report"].clone();
+    assert_eq!(report["termination"], "constrained");
+    let shape = serde_json::json!(
+        {"left": 6, "right": 0, "straight": 0, "inserted_knots": 0, "kept": true}
+    );
+    assert_eq!(report["shape"], shape);
+    let ran = place.run("curve corner.csv --convex=published").code(1);
+    ran.says(&["ended by stalled", "try --convex"]);
+    assert!(place.fit("corner.csv")["report"].get("shape").is_none());
+    place.run("curve corner.csv --convex --convex-threshold 1").code(2).says(&["=published"]);
+    place
+        .run("curve corner.csv --convex=published --convex-threshold 0")
+        .code(2)
+        .says(&["above 0"]);
+    place.run("curve corner.csv --convex --method sor").code(2).says(&["its own steps"]);
+    place.run("surface corner.csv --convex").code(2).says(&["--convex", "gimfit curve"]);
+    place.write("space.csv", "x,y,z\n0,0,0\n1,2,0\n2,1,1\n3,5,1\n4,0,2\n");
+    place.run("curve space.csv --convex").code(2).says(&["this dimension", "in the plane"]);
+}

@@ -89,6 +89,7 @@ mod pages {
         Bases: "docs/methods/bases.md",
         Chebyshev: "docs/methods/chebyshev.md",
         Closed: "docs/methods/closed.md",
+        Convex: "docs/methods/convex.md",
         Diagnose: "docs/methods/diagnose.md",
         FootPoints: "docs/methods/foot-points.md",
         GaussSeidel: "docs/methods/gauss-seidel.md",

@@ -4,13 +4,15 @@
 
 use gimfit::collocation::interpolation;
 use gimfit::iteration::update::{
-    Anderson, Chebyshev, GaussSeidel, Jacobi, PerPoint, Pia, Preconditioned, Sor, Staged, Weighted,
+    Anderson, Chebyshev, ClosestConvex, ConvexityPreserving, GaussSeidel, Jacobi, PerPoint, Pia,
+    Preconditioned, Sor, Staged, Weighted,
 };
 use gimfit::iteration::{IterationState, UpdateRule};
 use gimfit::knots::place_knots;
 use gimfit::parameters::assign_parameters;
+use gimfit::shape::Shape;
 use gimfit::{KnotPlacement, Parameterization, PointsView};
-use gimfit_testkit::generate::helix;
+use gimfit_testkit::generate::{helix, random_walk};
 
 #[test]
 fn steps_allocate_nothing() {
@@ -65,5 +67,29 @@ fn steps_on_a_grid_allocate_nothing_after_the_first() {
         let counted = allocation_counter::measure(|| (0..5).for_each(|_| state.step(&mut rule)));
         assert_eq!(counted.count_total, 0);
         assert!(state.norms().is_finite());
+    }
+}
+
+#[test]
+fn steps_that_keep_turns_allocate_nothing() {
+    let data = random_walk(4, 300, 2).concat();
+    let view = PointsView::new(2, &data).unwrap();
+    for closed in [false, true] {
+        let t = assign_parameters(view, closed, &Parameterization::Chord).unwrap();
+        let knots = place_knots(3, &t, &KnotPlacement::Averaged).unwrap();
+        let operator = interpolation(&t, &knots).unwrap().operator;
+        let shape = || Shape::of(&data, closed);
+        let rules: [Box<dyn UpdateRule + '_>; 2] = [
+            Box::new(ConvexityPreserving::new(Pia, shape(), 1e-9)),
+            Box::new(ClosestConvex::new(&operator, shape()).unwrap()),
+        ];
+        for mut rule in rules {
+            let mut state = IterationState::begin(&operator, &data, 2);
+            let counted = allocation_counter::measure(|| {
+                (0..5).for_each(|_| state.step(rule.as_mut()));
+            });
+            assert_eq!(counted.count_total, 0, "{rule:?}");
+            assert!(state.norms().is_finite() && state.norms().max > 1e-9);
+        }
     }
 }

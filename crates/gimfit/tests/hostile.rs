@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)] // A test that cannot go on has failed.
 
 use gimfit::{
-    CurveOptions, Duplicates, Error, GridView, IterationWeight, KnotPlacement, Method,
+    Convexity, CurveOptions, Duplicates, Error, GridView, IterationWeight, KnotPlacement, Method,
     Parameterization, PointsView, SurfaceOptions, fit_curve, fit_surface,
 };
 use proptest::prelude::*;
@@ -60,6 +60,13 @@ fn any_options() -> impl Strategy<Value = CurveOptions> {
         1 => (0.0..2.0).prop_map(IterationWeight::Same),
         1 => prop::collection::vec(0.1..1.9, 0..12).prop_map(IterationWeight::PerPoint),
     ];
+    let convexity = prop_oneof![
+        4 => Just(None),
+        2 => Just(Some(Convexity::Closest)),
+        1 => Just(Some(Convexity::Published { threshold: None })),
+        1 => prop::num::f64::ANY
+            .prop_map(|length| Some(Convexity::Published { threshold: Some(length) })),
+    ];
     let residual = prop_oneof![
         4 => Just(None),
         1 => Just(Some(0.0)),
@@ -69,7 +76,7 @@ fn any_options() -> impl Strategy<Value = CurveOptions> {
     let duplicates =
         prop::sample::select(vec![Duplicates::Error, Duplicates::Drop, Duplicates::Merge]);
     (
-        (0_usize..12, any::<bool>(), parameterization, knots),
+        (0_usize..12, any::<bool>(), parameterization, knots, convexity),
         (method, weight, 0_usize..60, residual),
         (duplicates, prop::collection::vec(0_usize..40, 0..4)),
     )
@@ -78,6 +85,7 @@ fn any_options() -> impl Strategy<Value = CurveOptions> {
             closed: curve.1,
             parameterization: curve.2,
             knot_placement: curve.3,
+            convexity: curve.4,
             method: iteration.0,
             weight: iteration.1,
             iterations: iteration.2,

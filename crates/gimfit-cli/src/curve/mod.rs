@@ -112,6 +112,7 @@ pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
     let finish = Finish {
         wanted,
         method: arguments.iteration.method,
+        convex: arguments.convex,
         run: Run {
             termination: report.run.termination,
             residual_target: report.run.residual_target,

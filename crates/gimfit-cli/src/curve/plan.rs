@@ -1,15 +1,15 @@
 //! From arguments to points and options, with all that can be checked before the run.
 
 use crate::arguments::{
-    CurveArguments, DuplicatesChoice, InputArguments, KnotRule, ParameterRule, RuleOrFile,
-    ShapeArguments,
+    ConvexChoice, CurveArguments, DuplicatesChoice, InputArguments, KnotRule, ParameterRule,
+    RuleOrFile, ShapeArguments,
 };
 use crate::basis::{basis, only_b_splines};
 use crate::input;
 use crate::method::{ensure_kept_fits_fit, method, weight, weight_file};
 use anyhow::{bail, ensure};
 use gimfit::basis::BlendingBasis;
-use gimfit::{CurveOptions, KnotPlacement, Parameterization};
+use gimfit::{Convexity, CurveOptions, KnotPlacement, Parameterization};
 use gimfit_io::points::PointTable;
 use std::path::Path;
 use std::sync::Arc;
@@ -34,7 +34,12 @@ impl Plan {
             numbers,
             &table.source,
         )?;
+        if basis.is_some() {
+            let chosen = arguments.convex.is_some();
+            only_b_splines("--convex", chosen, "other bases are fitted as they are")?;
+        }
         let options = CurveOptions {
+            convexity: convexity(arguments)?,
             method,
             weight,
             iterations: arguments.iteration.iterations,
@@ -93,6 +98,23 @@ fn blending(
         )?;
     }
     Ok(basis)
+}
+
+/// How the turns of the data are kept.
+fn convexity(arguments: &CurveArguments) -> anyhow::Result<Option<Convexity>> {
+    let threshold = arguments.convex_threshold;
+    ensure!(
+        threshold.is_none() || arguments.convex == Some(ConvexChoice::Published),
+        "--convex-threshold belongs to --convex=published"
+    );
+    ensure!(
+        threshold.is_none_or(|length| length > 0.0 && length.is_finite()),
+        "--convex-threshold must be a length above 0"
+    );
+    Ok(arguments.convex.map(|choice| match choice {
+        ConvexChoice::Closest => Convexity::Closest,
+        ConvexChoice::Published => Convexity::Published { threshold },
+    }))
 }
 
 /// The files to read, by the argument that names them.

@@ -2,6 +2,7 @@
 
 use super::Job;
 use crate::report_text::{Lines, RunLines};
+use gimfit::ShapeReport;
 
 /// A few lines: what was read, chosen, run, found and written.
 pub(super) fn report(job: &Job<'_>, written: &[String]) -> String {
@@ -33,6 +34,9 @@ pub(super) fn report(job: &Job<'_>, written: &[String]) -> String {
             }
         ),
     );
+    if let Some(shape) = &report.shape {
+        lines.add("shape", &shape_line(shape));
+    }
     lines.run(&RunLines {
         run: &report.run,
         max_residual_place: place(job, report.max_residual_index),
@@ -42,6 +46,30 @@ pub(super) fn report(job: &Job<'_>, written: &[String]) -> String {
         written,
     });
     lines.finish()
+}
+
+/// What turns were kept, and how.
+fn shape_line(shape: &ShapeReport) -> String {
+    let ShapeReport { left, right, straight, inserted_knots, kept } = *shape;
+    let mut line = format!(
+        "{} turns {} ({left} left, {right} right)",
+        left + right,
+        if kept { "kept" } else { "not all kept" }
+    );
+    if straight > 0 {
+        line += &format!(
+            ", {straight} straight corner{} on the side of {} neighbours",
+            if straight == 1 { "" } else { "s" },
+            if straight == 1 { "its" } else { "their" }
+        );
+    }
+    if inserted_knots > 0 {
+        line += &format!(
+            ", over {inserted_knots} inserted knot{}",
+            if inserted_knots == 1 { "" } else { "s" }
+        );
+    }
+    line
 }
 
 /// The row of a fitted point, as the file numbers it.

@@ -2,7 +2,10 @@
 //! bicubic surface with knots at the data and tied sides, plain PIA.
 
 use super::table::{Entry, Part, Source, Table};
-use gimfit::{GridView, KnotPlacement, Method, SurfaceOptions, fit_surface};
+use gimfit::{
+    Convexity, CurveOptions, GridView, KnotPlacement, Method, SurfaceOptions, fit_curve,
+    fit_surface,
+};
 
 const LINES: usize = 11;
 /// No coordinate exceeds it.
@@ -50,6 +53,15 @@ pub(super) fn recompute() -> anyhow::Result<Table> {
                 source: Source::Paper,
                 entries: entries.collect(),
             },
+            Part::Entries {
+                heading: "Algorithm 1 (convexity): largest residual where it freezes, knots at the data"
+                    .into(),
+                source: Source::Independent,
+                entries: vec![
+                    frozen("half an ellipse", "0.0130770053", half_ellipse())?,
+                    frozen("a parabola", "0.0020324420", parabola())?,
+                ],
+            },
             Part::Text(
                 "  The paper defines the error as the maximum; its entry for k = 0 is the sum of the norms\n  \
                  (the maximum is 1.868059). The data of Figs. 3 to 5 are not given.\n"
@@ -57,6 +69,27 @@ pub(super) fn recompute() -> anyhow::Result<Table> {
             ),
         ],
     })
+}
+
+/// The residual at which Algorithm 1 ends on some points.
+fn frozen(label: &str, reference: &str, points: Vec<[f64; 2]>) -> anyhow::Result<Entry> {
+    let options = CurveOptions {
+        knot_placement: Some(KnotPlacement::AtData),
+        convexity: Some(Convexity::Published { threshold: None }),
+        ..CurveOptions::default()
+    };
+    let found = fit_curve(&points, &options)?.report.run.max_residual;
+    Ok(Entry::known(label.into(), (reference.into(), reference.parse()?), 1e-8, found))
+}
+
+/// Axes 3 and 1, nine points at equal angles.
+fn half_ellipse() -> Vec<[f64; 2]> {
+    let angle = |i| std::f64::consts::PI * f64::from(i) / 8.0;
+    (0..9).map(angle).map(|a| [3.0 * a.cos(), a.sin()]).collect()
+}
+
+fn parabola() -> Vec<[f64; 2]> {
+    (0..9).map(|i| -3.0 + 0.75 * f64::from(i)).map(|x| [x, x * x]).collect()
 }
 
 /// Whether a printed number is the value with further digits cut off where rounding would have

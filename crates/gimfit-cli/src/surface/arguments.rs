@@ -53,6 +53,17 @@ pub(crate) struct SurfaceArguments {
     #[arg(long, value_name = "MARK", help_heading = "Reading")]
     pub(crate) decimal: Option<DecimalMark>,
 
+    /// Only to say why there is none
+    #[arg(
+        long,
+        hide = true,
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "",
+        value_name = "WAY"
+    )]
+    pub(crate) convex: Option<String>,
+
     /// Degree, or degrees in u and v [default: 3; with other bases than b-spline one less than the
     /// rows and columns]
     #[arg(long, value_name = "P[,Q]", help_heading = "Surface")]

@@ -128,6 +128,7 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
     let finish = Finish {
         wanted,
         method: arguments.iteration.method,
+        convex: None,
         run: Run {
             termination: report.run.termination,
             residual_target: report.run.residual_target,

@@ -26,6 +26,11 @@ pub(super) struct Plan {
 
 impl Plan {
     pub(super) fn new(arguments: &SurfaceArguments) -> anyhow::Result<Self> {
+        ensure!(
+            arguments.convex.is_none(),
+            "--convex keeps the turns of planar polygons; a net of control points has none: fit \
+             its rows or columns one by one with gimfit curve"
+        );
         let method = method(&arguments.iteration)?;
         let weight = surface_weight(&arguments.iteration.weight)?;
         ensure!(

@@ -11,7 +11,7 @@ mod run;
 mod surface;
 
 pub use blending::{BlendingData, SurfaceBlendingData};
-pub use model::{CurveGeometry, Document, Geometry, ReportData, SequenceFit};
+pub use model::{CurveGeometry, Document, Geometry, ReportData, SequenceFit, ShapeData};
 pub use read::{
     AnyDocument, DocumentError, is_document, parse_any_document, parse_document, read_document,
 };

@@ -2,7 +2,7 @@
 
 use super::run::{RunData, number_or_null};
 use super::{BlendingData, PointRows};
-use gimfit::{Curve, CurveReport, Error, KeptFit, KnotVector, Points};
+use gimfit::{Curve, CurveReport, Error, KeptFit, KnotVector, Points, ShapeReport};
 use serde::{Deserialize, Serialize};
 
 /// A whole document; parts that were not asked for are left out.
@@ -153,6 +153,30 @@ impl SequenceFit {
     }
 }
 
+/// The turns of a planar data polygon that were to be kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ShapeData {
+    /// Corners that turn left.
+    pub left: usize,
+    /// Corners that turn right.
+    pub right: usize,
+    /// Corners that do not turn.
+    pub straight: usize,
+    /// Knots inserted so that the control polygon shows the shape.
+    pub inserted_knots: usize,
+    /// Whether the control polygon turns as the data do.
+    pub kept: bool,
+}
+
+impl ShapeData {
+    /// Takes a report over.
+    #[must_use]
+    pub fn of(shape: &ShapeReport) -> Self {
+        let ShapeReport { left, right, straight, inserted_knots, kept } = *shape;
+        Self { left, right, straight, inserted_knots, kept }
+    }
+}
+
 /// The account of a fit. Lengths are in the unit of the data; indices count the points fitted,
 /// from 0.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -176,6 +200,9 @@ pub struct ReportData {
     pub knot_placement: String,
     /// Longest step of the parameters over the shortest.
     pub spacing_ratio: f64,
+    /// The turns kept, where they were to be.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shape: Option<ShapeData>,
     /// The run.
     #[serde(flatten)]
     pub run: RunData,
@@ -201,6 +228,7 @@ impl ReportData {
             parameterization: report.parameterization.into(),
             knot_placement: report.knot_placement.into(),
             spacing_ratio: report.spacing_ratio,
+            shape: report.shape.as_ref().map(ShapeData::of),
             run: RunData::of(&report.run),
             max_residual_index: report.max_residual_index,
             max_deviation: report.max_deviation,

@@ -50,7 +50,7 @@ pub struct RunData {
     pub iterations: usize,
     /// Steps behind the fit returned.
     pub iteration_returned: usize,
-    /// `residual`, `iterations`, `stalled`, `diverged` or `cancelled`.
+    /// `residual`, `iterations`, `stalled`, `constrained`, `diverged` or `cancelled`.
     pub termination: String,
     /// The residual aimed at.
     pub residual_target: f64,

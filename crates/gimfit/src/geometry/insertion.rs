@@ -180,8 +180,23 @@ impl Curve {
     pub fn with_knots(&self, added: &[f64]) -> Result<Self, Error> {
         let insertion = KnotInsertion::new(self.knots(), added)?;
         let dimension = self.dimension();
-        let control = insertion.apply(self.control_points().coordinates(), dimension);
-        Self::new(insertion.to, Points::new(dimension, control)?)
+        let control = self.control_points().coordinates();
+        let Some(weights) = self.rational_weights() else {
+            let control = insertion.apply(control, dimension);
+            return Self::new(insertion.to, Points::new(dimension, control)?);
+        };
+        // In homogeneous coordinates a rational curve is a polynomial one.
+        let finer_weights = insertion.apply(weights, 1);
+        let weighted: Vec<f64> = control
+            .chunks_exact(dimension)
+            .zip(weights)
+            .flat_map(|(point, weight)| point.iter().map(move |x| weight * x))
+            .collect();
+        let mut finer = insertion.apply(&weighted, dimension);
+        for (point, weight) in finer.chunks_exact_mut(dimension).zip(&finer_weights) {
+            point.iter_mut().for_each(|x| *x /= weight);
+        }
+        Self::rational(insertion.to, Points::new(dimension, finer)?, finer_weights)
     }
 }
 
@@ -215,6 +230,10 @@ mod tests {
             check(&curve, &[0.1, 8.9, 0.11, 4.4, 4.5, 4.6, 2.0, 2.25]);
             check(&curve, &[5.0]);
             check(&curve, &[]);
+            let (knots, control) = (curve.knots().clone(), curve.control_points().clone());
+            let weights = (0..control.len()).map(|i| 1.0 + 0.5 * (i as f64).sin()).collect();
+            let rational = Curve::rational(knots, control, weights).unwrap();
+            check(&rational, &[0.1, 8.9, 4.4, 4.5]);
         }
     }
 

@@ -1,10 +1,11 @@
 //! The shape that a fit is to keep: the turns of the data polygon, one by one.
 
-use super::turn::{Turn, cross};
+use super::turn::{Turn, cross, turn_beyond_rounding};
 
 /// The turns of a planar polygon.
 ///
-/// A straight corner of the data has no sign to keep. Between two left turns it is taken for one
+/// A straight corner of the data, straight up to the rounding of its coordinates, has no sign to
+/// keep. Between two left turns it is taken for one
 /// that must not turn right, and so on; a straight run between a left and a right turn belongs half
 /// to either, its middle corner, if there is one, to neither. Where everything is straight nothing
 /// is to be kept.
@@ -38,7 +39,8 @@ impl Shape {
         };
         let mut shape = Self { closed, points, corners: Vec::with_capacity(count) };
         for k in 0..count {
-            let side = Turn::of(shape.cross_of(k, |i| point(polygon, i)));
+            let [a, b, c] = shape.points_of(k).map(|i| point(polygon, i));
+            let side = turn_beyond_rounding(a, b, c);
             shape.corners.push(Corner { side, straight: side == Turn::Straight });
         }
         shape.settle_straight_runs();
@@ -148,19 +150,35 @@ impl Shape {
     pub(crate) fn is_strict_after(&self, polygon: &[f64], vectors: &[f64], scale: f64) -> bool {
         self.holds_for(
             |i| moved(polygon, vectors, scale, i),
-            |corner, turn| corner.side == turn || corner.side == Turn::Straight,
+            |corner, [a, b, c]| {
+                corner.side == Turn::Straight || corner.side == Turn::of(cross(a, b, c))
+            },
         )
+    }
+
+    /// Whether corner `k` of a polygon, which has a side to keep, is straight up to rounding or on
+    /// the other side.
+    pub(crate) fn is_flat(&self, k: usize, polygon: &[f64]) -> bool {
+        let [a, b, c] = self.points_of(k).map(|i| point(polygon, i));
+        let turn = turn_beyond_rounding(a, b, c);
+        turn == Turn::Straight
+            || (self.corners[k].side != Turn::Straight && turn != self.corners[k].side)
+    }
+
+    /// Whether a corner that has a side to keep is flat.
+    pub(crate) fn has_flat_corner(&self, polygon: &[f64]) -> bool {
+        (0..self.len()).any(|k| self.side(k) != Turn::Straight && self.is_flat(k, polygon))
     }
 
     fn holds_for(
         &self,
         point: impl Fn(usize) -> [f64; 2] + Copy,
-        allowed: impl Fn(Corner, Turn) -> bool,
+        allowed: impl Fn(Corner, [[f64; 2]; 3]) -> bool,
     ) -> bool {
         self.corners
             .iter()
             .enumerate()
-            .all(|(k, &corner)| allowed(corner, Turn::of(self.cross_of(k, point))))
+            .all(|(k, &corner)| allowed(corner, self.points_of(k).map(point)))
     }
 
     /// The cross product of the legs at corner `k`, with the sign of the exact one.
@@ -171,10 +189,10 @@ impl Shape {
 }
 
 impl Corner {
-    fn allows(self, turn: Turn) -> bool {
-        turn == self.side
-            || self.side == Turn::Straight
-            || (self.straight && turn == Turn::Straight)
+    fn allows(self, [a, b, c]: [[f64; 2]; 3]) -> bool {
+        self.side == Turn::Straight
+            || self.side == Turn::of(cross(a, b, c))
+            || (self.straight && turn_beyond_rounding(a, b, c) == Turn::Straight)
     }
 }
 

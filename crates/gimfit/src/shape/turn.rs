@@ -44,6 +44,17 @@ pub fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Turn {
     Turn::of(cross(a, b, c))
 }
 
+/// The turn, where it exceeds what rounding the coordinates to doubles may have made of a straight
+/// corner: decimal numbers on a line are seldom so as doubles.
+pub(crate) fn turn_beyond_rounding(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Turn {
+    let size = [a, b, c].as_flattened().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let leg = |a: [f64; 2], b: [f64; 2]| (b[0] - a[0]).abs() + (b[1] - a[1]).abs();
+    let area = cross(a, b, c);
+    // Each coordinate is off by half a unit in the last place, so each leg by one.
+    let noise = f64::EPSILON * size * (leg(a, b) + leg(b, c));
+    if area.abs() <= noise { Turn::Straight } else { Turn::of(area) }
+}
+
 /// The cross product of the legs `b - a` and `c - b`, with the sign of the exact one.
 pub(crate) fn cross(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     let coord = |[x, y]: [f64; 2]| Coord { x, y };

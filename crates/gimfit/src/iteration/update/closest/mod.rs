@@ -203,7 +203,7 @@ impl UpdateRule for ClosestConvex {
         let moved = match self.phase {
             Phase::Fresh | Phase::Reached => true,
             Phase::Ended(_) => false,
-            Phase::Entering if !self.corners.look(&self.shape, control) => {
+            Phase::Entering if self.shape.has_flat_corner(control) => {
                 self.phase = Phase::Inside;
                 start::bulge(&self.shape, control, vectors)
             }

@@ -1,6 +1,6 @@
 //! A start that has no straight corner where it has to keep a side.
 
-use crate::shape::{Shape, Turn, point};
+use crate::shape::{Shape, point};
 
 /// How far straight runs are bulged out at first, in units of their shortest leg.
 const BULGE: f64 = 1e-3;
@@ -11,9 +11,7 @@ const MOST_HALVINGS: usize = 60;
 pub(super) fn bulge(shape: &Shape, control: &[f64], vectors: &mut [f64]) -> bool {
     vectors.fill(0.0);
     let count = shape.len();
-    let straight: Vec<bool> = (0..count)
-        .map(|k| Turn::of(shape.cross_of(k, |i| point(control, i))) == Turn::Straight)
-        .collect();
+    let straight: Vec<bool> = (0..count).map(|k| shape.is_flat(k, control)).collect();
     // Begin behind a corner that turns, so that no run goes round the seam.
     let begin = straight.iter().position(|straight| !straight).map_or(0, |k| k + 1);
     let mut run = Vec::new();
@@ -76,5 +74,26 @@ fn bulge_run(shape: &Shape, control: &[f64], run: &[usize], vectors: &mut [f64])
             vectors[2 * i] -= scale * offset * unit[1];
             vectors[2 * i + 1] += scale * offset * unit[0];
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decimals_on_a_line_are_bulged_whatever_their_rounding() {
+        // No three neighbours of the side lie exactly on a line; a corner turns at either end.
+        let mut data = vec![0.59, 0.2];
+        data.extend((0..9).flat_map(|i| {
+            let step = f64::from(i);
+            [(59.0 + step) / 100.0, (635.0 + 6.0 * step) / 10_000.0]
+        }));
+        data.extend([0.67, 0.2]);
+        let shape = Shape::of(&data, false);
+        let mut vectors = vec![0.0; data.len()];
+        assert!(bulge(&shape, &data, &mut vectors));
+        assert!(shape.is_strict_after(&data, &vectors, 1.0));
+        assert!(!shape.is_strict_after(&data, &vectors, -1.0));
     }
 }
