@@ -1,6 +1,7 @@
 //! What can be typed, as clap reads it. Values that mean one of several things, such as a rule or a
 //! file, are told apart here.
 
+use crate::curve::ApproximationArguments;
 use crate::evaluate::SampleCount;
 use crate::surface::SurfaceArguments;
 use crate::values;
@@ -90,7 +91,8 @@ Examples:
   gimfit curve coast.csv --closed -o coast.json -o coast.png
   gimfit curve track.gpx --columns east,north,up --method pia --keep 0,2,4,15,30 -o track.svg
   gimfit curve outline.csv --closed --convex -o outline.svg
-  gimfit curve signal.csv --abscissa x -o signal.json"
+  gimfit curve signal.csv --abscissa x -o signal.json
+  gimfit curve scan.xyz --tolerance 0.05 -o scan.json"
 )]
 pub(crate) struct CurveArguments {
     #[command(flatten)]
@@ -124,6 +126,9 @@ pub(crate) struct CurveArguments {
         help_heading = "Curve"
     )]
     pub(crate) convex_threshold: Option<f64>,
+
+    #[command(flatten)]
+    pub(crate) approximation: ApproximationArguments,
 
     #[command(flatten)]
     pub(crate) iteration: IterationArguments,

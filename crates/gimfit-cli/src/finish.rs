@@ -21,6 +21,8 @@ pub(crate) struct Run {
     pub(crate) residual_target: f64,
     pub(crate) max_residual: f64,
     pub(crate) iterations: usize,
+    /// Whether a distance was to be kept rather than the points met.
+    pub(crate) approximates: bool,
 }
 
 impl Finish<'_> {
@@ -49,7 +51,7 @@ impl Finish<'_> {
 
     /// Running all the iterations asked for is done, unless a residual was to be reached.
     fn ending(&self) -> Ending {
-        let Run { termination, residual_target, max_residual, iterations } = self.run;
+        let Run { termination, residual_target, max_residual, iterations, approximates } = self.run;
         let met = match termination {
             Termination::Residual => true,
             Termination::Iterations => residual_target == 0.0,
@@ -58,8 +60,9 @@ impl Finish<'_> {
         if met {
             return Ending::Done;
         }
+        let what = if approximates { "distance" } else { "residual" };
         output::remark(&format!(
-            "{}warning: the residual {residual_target:.3e} was not reached: the run ended by \
+            "{}warning: the {what} {residual_target:.3e} was not reached: the run ended by \
              {termination} at {max_residual:.3e} after {iterations} iterations; what was found is \
              written all the same{}\n",
             if self.wanted.arguments.quiet { "" } else { "\n" },
@@ -71,6 +74,9 @@ impl Finish<'_> {
     /// What to try next.
     fn advice(&self) -> &'static str {
         let auto = self.method == MethodChoice::Auto;
+        if self.run.approximates {
+            return "; allow a larger distance, or fewer demands";
+        }
         match self.run.termination {
             Termination::Constrained => {
                 "; no fit nearby that turns as the data do comes closer: without --convex the curve \

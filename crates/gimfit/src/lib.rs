@@ -61,9 +61,10 @@ pub mod fit;
 
 pub use error::Error;
 pub use fit::{
-    BlendingCurveFit, BlendingOptions, BlendingSurfaceFit, BlendingSurfaceOptions, Convexity,
-    CurveDiagnosis, CurveFit, CurveOptions, IterationWeight, KeptFit, Method, SurfaceFit,
-    SurfaceOptions, SurfaceWeight, diagnose_blending_curve, diagnose_curve, fit_blending_curve,
+    ApproximationOptions, BlendingCurveFit, BlendingOptions, BlendingSurfaceFit,
+    BlendingSurfaceOptions, Convexity, Corners, CurveDiagnosis, CurveFit, CurveOptions, Goal,
+    IterationWeight, KeptFit, Method, SurfaceFit, SurfaceOptions, SurfaceWeight, approximate_curve,
+    approximate_curve_observed, diagnose_blending_curve, diagnose_curve, fit_blending_curve,
     fit_blending_surface, fit_curve, fit_curve_observed, fit_surface, fit_surface_observed,
 };
 pub use geometry::{BlendingCurve, BlendingSurface, Curve, Surface};
@@ -71,7 +72,7 @@ pub use iteration::{HistoryEntry, Termination};
 pub use knots::{KnotPlacement, KnotVector};
 pub use parameters::Parameterization;
 pub use points::{Duplicates, GridView, PointGrid, Points, PointsView};
-pub use report::{CurveReport, RunReport, ShapeReport, SurfaceReport};
+pub use report::{ApproximationReport, CurveReport, RunReport, ShapeReport, SurfaceReport};
 
 /// The Rust examples of the README and of the documentation pages, run as tests.
 #[cfg(doctest)]

@@ -1,10 +1,13 @@
 //! `gimfit curve`: the main job.
 
+mod approximation;
 mod draw;
 mod explain_fit;
 mod plan;
 mod print;
 mod save;
+
+pub(crate) use approximation::ApproximationArguments;
 
 use crate::Ending;
 use crate::arguments::CurveArguments;
@@ -19,10 +22,13 @@ pub(crate) use explain_fit::explain_fit;
 use gimfit::basis::BlendingBasis;
 use gimfit::fit::fit_blending_curve_observed;
 use gimfit::iteration::Observer;
-use gimfit::{BlendingOptions, CurveFit, CurveOptions, Error, PointsView, fit_curve_observed};
+use gimfit::{
+    BlendingOptions, CurveFit, CurveOptions, Error, PointsView, approximate_curve_observed,
+    fit_curve_observed,
+};
 use gimfit_io::document::{BlendingData, Document, Seconds, document_of};
 use gimfit_io::points::PointTable;
-use plan::Plan;
+use plan::{Plan, Recipe};
 pub(crate) use plan::{Shape, knot_placement, shape};
 use std::sync::Arc;
 use std::time::Instant;
@@ -86,7 +92,7 @@ pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
     signal::listen()?;
     let clock = Instant::now();
     let plan = Plan::new(arguments)?;
-    let Plan { table, options, basis } = plan;
+    let Plan { table, options, recipe } = plan;
     let read = clock.elapsed().as_secs_f64();
 
     let view = PointsView::new(table.dimension(), &table.coordinates)
@@ -94,9 +100,14 @@ pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
     let mut progress = Progress::new(arguments.writing.quiet, options.iterations);
     signal::enter(Stage::Fitting);
     let clock = Instant::now();
-    let result = match &basis {
-        None => fit_curve_observed(view, &options, &mut progress).map(|fit| (fit, None)),
-        Some(basis) => blended(view, basis, &options, &mut progress),
+    let result = match &recipe {
+        Recipe::Interpolate => {
+            fit_curve_observed(view, &options, &mut progress).map(|fit| (fit, None))
+        }
+        Recipe::Blend(basis) => blended(view, basis, &options, &mut progress),
+        Recipe::Approximate(options) => {
+            approximate_curve_observed(view, options, &mut progress).map(|fit| (fit, None))
+        }
     };
     let fitted = clock.elapsed().as_secs_f64();
     signal::enter(Stage::Writing);
@@ -104,9 +115,12 @@ pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
     let (fit, blending) =
         result.map_err(|error| explain_fit(error, &table, &arguments.input, &arguments.shape))?;
 
+    let basis = match &recipe {
+        Recipe::Blend(basis) => Some(described(basis.as_ref())),
+        _ => None,
+    };
     let seconds = Seconds { read, fit: fitted, write: None };
-    let mut job =
-        Job::new(&table, &fit, basis.as_deref().map(described), arguments.samples, seconds);
+    let mut job = Job::new(&table, &fit, basis, arguments.samples, seconds);
     job.document.blending = blending;
     let report = &fit.report;
     let finish = Finish {
@@ -118,6 +132,7 @@ pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
             residual_target: report.run.residual_target,
             max_residual: report.run.max_residual,
             iterations: report.run.iterations,
+            approximates: matches!(recipe, Recipe::Approximate(_)),
         },
     };
     finish.finish(&mut job, print::report)

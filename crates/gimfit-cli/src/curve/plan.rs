@@ -9,7 +9,7 @@ use crate::input;
 use crate::method::{ensure_kept_fits_fit, method, weight, weight_file};
 use anyhow::{bail, ensure};
 use gimfit::basis::BlendingBasis;
-use gimfit::{Convexity, CurveOptions, KnotPlacement, Parameterization};
+use gimfit::{ApproximationOptions, Convexity, CurveOptions, KnotPlacement, Parameterization};
 use gimfit_io::points::PointTable;
 use std::path::Path;
 use std::sync::Arc;
@@ -18,8 +18,17 @@ use std::sync::Arc;
 pub(super) struct Plan {
     pub(super) table: PointTable,
     pub(super) options: CurveOptions,
-    /// What is blended, if no B-splines are.
-    pub(super) basis: Option<Arc<dyn BlendingBasis>>,
+    pub(super) recipe: Recipe,
+}
+
+/// The kinds of fits.
+pub(super) enum Recipe {
+    /// Through all points, by B-splines.
+    Interpolate,
+    /// Through all points, by another basis.
+    Blend(Arc<dyn BlendingBasis>),
+    /// Within a distance, or by few control points.
+    Approximate(ApproximationOptions),
 }
 
 impl Plan {
@@ -38,6 +47,12 @@ impl Plan {
             let chosen = arguments.convex.is_some();
             only_b_splines("--convex", chosen, "other bases are fitted as they are")?;
         }
+        let approximation = &arguments.approximation;
+        let recipe = match (approximation.options(options.degree, options.closed)?, basis) {
+            (Some(options), _) => Recipe::Approximate(options),
+            (None, Some(basis)) => Recipe::Blend(basis),
+            (None, None) => Recipe::Interpolate,
+        };
         let options = CurveOptions {
             convexity: convexity(arguments)?,
             method,
@@ -47,7 +62,7 @@ impl Plan {
             keep: arguments.iteration.keep.clone(),
             ..options
         };
-        Ok(Self { table, options, basis })
+        Ok(Self { table, options, recipe })
     }
 }
 

@@ -134,6 +134,7 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
             residual_target: report.run.residual_target,
             max_residual: report.run.max_residual,
             iterations: report.run.iterations,
+            approximates: false,
         },
     };
     finish.finish(&mut job, print::report)

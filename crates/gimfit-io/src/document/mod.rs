@@ -3,6 +3,7 @@
 //!
 //! Numbers are written with as many digits as they need to come back bit by bit.
 
+mod approximation;
 mod blending;
 mod model;
 mod read;
@@ -10,6 +11,7 @@ mod rows;
 mod run;
 mod surface;
 
+pub use approximation::ApproximationData;
 pub use blending::{BlendingData, SurfaceBlendingData};
 pub use model::{CurveGeometry, Document, Geometry, ReportData, SequenceFit, ShapeData};
 pub use read::{

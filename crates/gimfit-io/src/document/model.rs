@@ -1,5 +1,6 @@
 //! The document as data.
 
+use super::approximation::ApproximationData;
 use super::run::{RunData, number_or_null};
 use super::{BlendingData, PointRows};
 use gimfit::{Curve, CurveReport, Error, KeptFit, KnotVector, Points, ShapeReport};
@@ -206,6 +207,9 @@ pub struct ReportData {
     /// The run.
     #[serde(flatten)]
     pub run: RunData,
+    /// What an approximation achieved.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub approximation: Option<ApproximationData>,
     /// Where the largest residual is met.
     pub max_residual_index: usize,
     /// Largest distance of a data point from its foot point.
@@ -230,6 +234,7 @@ impl ReportData {
             spacing_ratio: report.spacing_ratio,
             shape: report.shape.as_ref().map(ShapeData::of),
             run: RunData::of(&report.run),
+            approximation: report.approximation.as_ref().map(ApproximationData::of),
             max_residual_index: report.max_residual_index,
             max_deviation: report.max_deviation,
             max_deviation_index: report.max_deviation_index,

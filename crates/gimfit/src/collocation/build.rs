@@ -98,14 +98,14 @@ pub(crate) fn wrap(t: f64, (start, end): (f64, f64), period: f64) -> f64 {
     }
 }
 
-struct CollocationRows {
+pub(super) struct CollocationRows {
     width: usize,
     first: Vec<i32>,
     weights: Vec<f64>,
 }
 
 /// Rows over the stored control points.
-fn collocate(t: &[f64], knots: &KnotVector) -> CollocationRows {
+pub(super) fn collocate(t: &[f64], knots: &KnotVector) -> CollocationRows {
     let degree = knots.degree();
     let width = degree + 1;
     let mut first = memory::with_capacity(t.len());
@@ -129,6 +129,11 @@ fn collocate(t: &[f64], knots: &KnotVector) -> CollocationRows {
 }
 
 impl CollocationRows {
+    /// First columns and weights.
+    pub(super) fn into_parts(self) -> (Vec<i32>, Vec<f64>) {
+        (self.first, self.weights)
+    }
+
     fn into_operator(self) -> BandedCollocation {
         BandedCollocation::from_rows(self.width, self.first, self.weights)
     }

@@ -11,6 +11,7 @@ mod folded;
 mod grid;
 pub(crate) mod kernel;
 mod layout;
+mod least_squares;
 mod spectrum;
 
 pub use banded::BandedCollocation;
@@ -20,6 +21,7 @@ pub use dense::{DenseCollocation, MAX_DENSE_POINTS};
 pub use factor::Factorization;
 pub use grid::{AcrossCollocation, AlongCollocation, TensorCollocation};
 pub use layout::{ControlLayout, NetLayout};
+pub(crate) use least_squares::DataRows;
 pub use spectrum::{
     Eigenvalue, EigenvalueBounds, all_eigenvalues, best_weight, eigenvalues, gauss_seidel_rate,
     largest_jacobi_eigenvalue, lemma2_weight, rate_with_weight, smallest_eigenvalue,

@@ -145,6 +145,7 @@ pub fn fit_blending_curve_observed<'a>(
     choices.append(&mut solved.run.choices);
     solved.run.choices = choices;
     let report = CurveReport {
+        approximation: None,
         points: view.len(),
         control_points: view.len(),
         degree: view.len() - 1,

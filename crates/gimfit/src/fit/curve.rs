@@ -240,6 +240,7 @@ fn fit_problem(
         spacing_ratio,
         shape,
         run: solved.run,
+        approximation: None,
         max_residual_index: norms.max_index,
         max_deviation: scale.undo(max_deviation),
         max_deviation_index,

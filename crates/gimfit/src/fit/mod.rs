@@ -1,5 +1,6 @@
 //! The recipes: from points to a curve and a report. The only room that knows all others.
 
+mod approximate;
 mod blending;
 mod blending_surface;
 mod convex;
@@ -15,6 +16,9 @@ mod solve;
 mod surface;
 mod surface_method;
 
+pub use approximate::{
+    ApproximationOptions, Corners, Goal, approximate_curve, approximate_curve_observed,
+};
 pub use blending::{BlendingCurveFit, fit_blending_curve, fit_blending_curve_observed};
 pub use blending_surface::{
     BlendingSurfaceFit, fit_blending_surface, fit_blending_surface_observed,

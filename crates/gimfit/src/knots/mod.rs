@@ -4,4 +4,5 @@ mod placement;
 mod vector;
 
 pub use placement::{KnotPlacement, place_knots};
+pub(crate) use vector::check_degree;
 pub use vector::{Boundary, KnotVector, MAX_DEGREE};

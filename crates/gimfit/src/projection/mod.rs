@@ -2,6 +2,7 @@
 
 mod bernstein;
 mod boxes;
+mod correction;
 mod curve;
 mod global_curve;
 mod global_surface;
@@ -10,6 +11,7 @@ mod pieces;
 mod query;
 mod surface;
 
+pub(crate) use correction::MovingCurve;
 pub use curve::{FootPoint, largest_deviation, local_foot_point};
 pub use global_curve::CurveProjector;
 pub use global_surface::SurfaceProjector;

@@ -1,6 +1,6 @@
 //! The account of a curve fit.
 
-use super::{RunReport, ShapeReport};
+use super::{ApproximationReport, RunReport, ShapeReport};
 
 /// The account of a curve fit. Lengths are in the unit of the data; indices count the points
 /// fitted.
@@ -26,6 +26,8 @@ pub struct CurveReport {
     pub shape: Option<ShapeReport>,
     /// The run.
     pub run: RunReport,
+    /// What an approximation achieved; `None` for interpolation.
+    pub approximation: Option<ApproximationReport>,
     /// The point with the largest residual.
     pub max_residual_index: usize,
     /// Largest distance of a data point from its foot point on the curve.

@@ -1,10 +1,12 @@
 //! What happened, in numbers that can be checked.
 
+mod approximation;
 mod curve;
 mod run;
 mod shape;
 mod surface;
 
+pub use approximation::ApproximationReport;
 pub use curve::CurveReport;
 pub use run::RunReport;
 pub use shape::ShapeReport;

@@ -1,0 +1,120 @@
+//! Arguments that ask for few control points within a distance, in place of interpolation.
+
+use crate::values;
+use anyhow::ensure;
+use clap::Args;
+use gimfit::{ApproximationOptions, Corners, Goal};
+use std::str::FromStr;
+
+/// What interpolation alone has.
+const OF_INTERPOLATION: [&str; 14] = [
+    "convex",
+    "basis",
+    "parameters",
+    "knots",
+    "period",
+    "duplicates",
+    "abscissa",
+    "sort",
+    "method",
+    "weight",
+    "bandwidth",
+    "residual",
+    "keep",
+    "iterations",
+];
+
+#[derive(Debug, Args)]
+pub(crate) struct ApproximationArguments {
+    /// Keep every point within this distance of the curve, with as few control points as can be
+    /// found, and no wiggles between the points
+    #[arg(
+        long,
+        value_name = "DISTANCE",
+        value_parser = values::number,
+        allow_negative_numbers = true,
+        group = "goal",
+        conflicts_with_all = OF_INTERPOLATION,
+        help_heading = "Approximation"
+    )]
+    pub(crate) tolerance: Option<f64>,
+
+    /// Keep the root mean square of the distances below this, likewise
+    #[arg(
+        long,
+        value_name = "DISTANCE",
+        value_parser = values::number,
+        allow_negative_numbers = true,
+        group = "goal",
+        conflicts_with_all = OF_INTERPOLATION,
+        help_heading = "Approximation"
+    )]
+    pub(crate) rms: Option<f64>,
+
+    /// Come as close as can be with this many control points
+    #[arg(
+        long,
+        value_name = "N",
+        group = "goal",
+        conflicts_with_all = OF_INTERPOLATION,
+        help_heading = "Approximation"
+    )]
+    pub(crate) control_points: Option<usize>,
+
+    /// Corners that stay sharp: auto (those that the data show at the scale of the tolerance), none,
+    /// or the smallest turn in degrees [default: auto]
+    #[arg(
+        long,
+        value_name = "auto|none|ANGLE",
+        allow_negative_numbers = true,
+        requires = "goal",
+        help_heading = "Approximation"
+    )]
+    pub(crate) corners: Option<CornersChoice>,
+}
+
+/// [`Corners`] as typed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct CornersChoice(Corners);
+
+impl FromStr for CornersChoice {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        Ok(Self(match text {
+            "auto" => Corners::Auto,
+            "none" => Corners::None,
+            _ => Corners::Angle(
+                values::number(text)
+                    .map_err(|_| format!("\"{text}\" is neither auto nor none nor an angle"))?,
+            ),
+        }))
+    }
+}
+
+impl ApproximationArguments {
+    /// The options, where an approximation is asked for.
+    pub(crate) fn options(
+        &self,
+        degree: usize,
+        closed: bool,
+    ) -> anyhow::Result<Option<ApproximationOptions>> {
+        let goal = match (self.tolerance, self.rms, self.control_points) {
+            (Some(tolerance), _, _) => Goal::Tolerance(tolerance),
+            (_, Some(rms), _) => Goal::Rms(rms),
+            (_, _, Some(count)) => Goal::ControlPoints(count),
+            _ => return Ok(None),
+        };
+        let corners = self.corners.map_or(Corners::Auto, |choice| choice.0);
+        ensure!(
+            self.control_points.is_none() || self.corners.is_none() || corners == Corners::None,
+            "--corners belongs to --tolerance and --rms"
+        );
+        Ok(Some(ApproximationOptions {
+            degree,
+            closed,
+            corners,
+            ..ApproximationOptions::new(goal)
+        }))
+    }
+}

@@ -1,0 +1,215 @@
+//! Where breakpoints should stand: dense where the highest derivative jumps most (de Boor 1974,
+//! Burchard 1974), or where the distance is largest.
+
+use super::attempt::Attempt;
+use super::problem::Problem;
+use crate::Error;
+use crate::knots::KnotVector;
+
+/// A density over the domain, as its cumulated share at breakpoints.
+#[derive(Debug)]
+pub(super) struct Density {
+    places: Vec<f64>,
+    shares: Vec<f64>,
+}
+
+/// Part of the density that is the same everywhere.
+const EVEN_SHARE: f64 = 0.05;
+/// How strongly distances move breakpoints.
+const DAMPING: f64 = 0.6;
+/// Distances below this part of the largest one count as this much.
+const LEAST_RATIO: f64 = 0.1;
+
+impl Density {
+    fn from_spans(breaks: &[f64], amounts: &[f64]) -> Self {
+        let total: f64 = amounts.iter().sum();
+        let mut shares = vec![0.0];
+        let mut sum = 0.0;
+        for amount in amounts {
+            sum += amount;
+            shares.push(if total > 0.0 { sum / total } else { shares.len() as f64 });
+        }
+        let last = shares[amounts.len()];
+        shares.iter_mut().for_each(|share| *share /= last);
+        Self { places: breaks.to_vec(), shares }
+    }
+
+    /// Even density.
+    pub(super) fn even() -> Self {
+        Self { places: vec![0.0, 1.0], shares: vec![0.0, 1.0] }
+    }
+
+    /// `count` breakpoints with equal shares between them.
+    pub(super) fn place(&self, count: usize, closed: bool) -> Vec<f64> {
+        let parts = if closed { count } else { count + 1 };
+        let first = usize::from(!closed);
+        let mut places: Vec<f64> = (first..first + count)
+            .map(|i| {
+                let wanted = i as f64 / parts as f64;
+                let after = self
+                    .shares
+                    .partition_point(|&share| share <= wanted)
+                    .clamp(1, self.shares.len() - 1);
+                let (a, b) = (self.shares[after - 1], self.shares[after]);
+                let part = if b > a { (wanted - a) / (b - a) } else { 0.0 };
+                let (from, to) = (self.places[after - 1], self.places[after]);
+                from + (to - from) * part
+            })
+            .collect();
+        if closed {
+            places.iter_mut().for_each(|place| *place = place.rem_euclid(1.0));
+            places.sort_by(f64::total_cmp);
+        }
+        places
+    }
+}
+
+/// The ends of all spans: one more than there are spans.
+pub(super) fn span_ends(attempt: &Attempt, closed: bool) -> Vec<f64> {
+    if closed {
+        let mut ends = attempt.breaks.clone();
+        ends.extend(attempt.breaks.first().map(|first| first + 1.0));
+        return ends;
+    }
+    let mut ends = vec![0.0];
+    ends.extend_from_slice(&attempt.breaks);
+    ends.push(1.0);
+    ends
+}
+
+/// The span, of those with these ends, that holds a parameter.
+pub(super) fn span_of(ends: &[f64], t: f64, closed: bool) -> usize {
+    let t = if closed { ends[0] + (t - ends[0]).rem_euclid(1.0) } else { t };
+    ends.partition_point(|&end| end <= t).clamp(1, ends.len() - 1) - 1
+}
+
+/// Density after the jumps of the highest derivative that an attempt shows: spans then get equal
+/// parts of the integral of the `(p + 1)`-th root of the next derivative.
+pub(super) fn density_of_jumps(attempt: &Attempt, problem: &Problem<'_>) -> Result<Density, Error> {
+    let (jumps, ends) = jumps(attempt, problem)?;
+    let spans = ends.len() - 1;
+    let root = 1.0 / (problem.degree as f64 + 1.0);
+    let length = |s: usize| ends[s + 1] - ends[s];
+    // The jump between spans `s - 1` and `s`, spread over their halves.
+    let strength = |before: usize, after: usize, jump: f64| {
+        (jump / (0.5 * (length(before) + length(after)))).powf(root)
+    };
+    let mut amounts: Vec<f64> = (0..spans)
+        .map(|s| {
+            let mut sum = 0.0;
+            let mut count = 0.0;
+            if s > 0 || problem.closed {
+                let before = (s + spans - 1) % spans;
+                sum += strength(before, s, jumps[s]);
+                count += 1.0;
+            }
+            if s + 1 < spans || problem.closed {
+                let after = (s + 1) % spans;
+                sum += strength(s, after, jumps[after]);
+                count += 1.0;
+            }
+            let amount = if count > 0.0 { length(s) * sum / count } else { 1.0 };
+            if amount.is_finite() { amount } else { 0.0 }
+        })
+        .collect();
+    let mean = amounts.iter().sum::<f64>() / spans as f64;
+    let floor = if mean > 0.0 { EVEN_SHARE * mean } else { 1.0 };
+    amounts.iter_mut().for_each(|amount| *amount += floor);
+    Ok(Density::from_spans(&ends, &amounts))
+}
+
+/// Breakpoints moved so that spans with large distances shrink and calm ones grow.
+pub(super) fn relaxed(attempt: &Attempt, problem: &Problem<'_>) -> Vec<f64> {
+    let ends = span_ends(attempt, problem.closed);
+    let mut largest = vec![0.0_f64; ends.len() - 1];
+    for_each_ratio(attempt, |t, ratio, _| {
+        let span = span_of(&ends, t, problem.closed);
+        largest[span] = largest[span].max(ratio);
+    });
+    let power = DAMPING / (problem.degree as f64 + 1.0);
+    let amounts: Vec<f64> =
+        largest.iter().map(|r| (r / attempt.worst).clamp(LEAST_RATIO, 1.0).powf(power)).collect();
+    Density::from_spans(&ends, &amounts).place(attempt.breaks.len(), problem.closed)
+}
+
+/// Visits parameter and ratio of all data points and guards; the flag tells data points.
+pub(super) fn for_each_ratio(attempt: &Attempt, mut visit: impl FnMut(f64, f64, bool)) {
+    for (&t, &ratio) in attempt.parameters.iter().zip(&attempt.ratios) {
+        visit(t, ratio, true);
+    }
+    for (&guard, &ratio) in attempt.guards.iter().zip(&attempt.guard_ratios) {
+        visit(attempt.guard_parameter(guard), ratio, false);
+    }
+}
+
+/// Parameters strictly between two, where a curve is looked at: several between neighbouring
+/// breakpoints, so that no short span can hide a spike. `breaks` ascend; those of a closed curve
+/// repeat with period 1.
+pub(super) fn looks(from: f64, to: f64, breaks: &[f64], closed: bool) -> Vec<f64> {
+    /// Looks between two data points, and between two breakpoints, at least.
+    const IN_ALL: usize = 9;
+    const EACH: usize = 4;
+    let mut ends = vec![from];
+    let laps: &[f64] = if closed { &[-1.0, 0.0, 1.0] } else { &[0.0] };
+    for lap in laps {
+        let first = breaks.partition_point(|&place| place + lap <= from);
+        ends.extend(breaks[first..].iter().map(|place| place + lap).take_while(|&t| t < to));
+    }
+    ends.sort_by(f64::total_cmp);
+    ends.push(to);
+    let each = IN_ALL.div_ceil(ends.len() - 1).max(EACH);
+    let mut places: Vec<f64> = ends
+        .windows(2)
+        .flat_map(|pair| {
+            let (a, b) = (pair[0], pair[1]);
+            (1..=each).map(move |i| a + (b - a) * (i as f64 / each as f64))
+        })
+        .collect();
+    places.retain(|&t| from < t && t < to);
+    places.dedup();
+    places
+}
+
+/// What each breakpoint is worth: roughly how far the curve would move without it.
+pub(super) fn significance(attempt: &Attempt, problem: &Problem<'_>) -> Result<Vec<f64>, Error> {
+    let (jumps, ends) = jumps(attempt, problem)?;
+    let spans = ends.len() - 1;
+    let worth = |after: usize| {
+        let before = (after + spans - 1) % spans;
+        let (a, b) = (ends[before + 1] - ends[before], ends[after + 1] - ends[after]);
+        jumps[after] * (0.5 * (a + b)).powi(problem.degree as i32)
+    };
+    let first = usize::from(!problem.closed);
+    Ok((first..first + attempt.breaks.len()).map(worth).collect())
+}
+
+/// Norm of the jump of the `p`-th derivative at the start of each span, and the ends of the spans.
+fn jumps(attempt: &Attempt, problem: &Problem<'_>) -> Result<(Vec<f64>, Vec<f64>), Error> {
+    let (p, d) = (problem.degree, problem.dimension);
+    let knots: KnotVector = attempt.knots(problem)?;
+    let values = knots.values();
+    let stored = knots.control_points();
+    let mut derivative: Vec<f64> =
+        attempt.control.iter().copied().cycle().take(stored * d).collect();
+    for order in 1..=p {
+        let count = stored - order;
+        for i in 0..count {
+            let gap = values[i + p + 1] - values[i + order];
+            let factor = if gap > 0.0 { (p + 1 - order) as f64 / gap } else { 0.0 };
+            for x in 0..d {
+                derivative[i * d + x] =
+                    factor * (derivative[(i + 1) * d + x] - derivative[i * d + x]);
+            }
+        }
+    }
+    let ends = span_ends(attempt, problem.closed);
+    let spans = ends.len() - 1;
+    let jumps = (0..spans)
+        .map(|s| {
+            let before = (s + spans - 1) % spans;
+            let (a, b) = (&derivative[before * d..][..d], &derivative[s * d..][..d]);
+            super::polyline::distance(a, b)
+        })
+        .collect();
+    Ok((jumps, ends))
+}

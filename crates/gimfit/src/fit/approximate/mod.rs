@@ -1,0 +1,342 @@
+//! Curves within a distance of the data, with few control points: least squares in which breakpoints
+//! and parameters are sought as well.
+
+mod attempt;
+mod breaks;
+mod corners;
+mod options;
+mod pieces;
+mod polyline;
+mod problem;
+mod search;
+mod verify;
+
+pub use options::{ApproximationOptions, Corners, Goal};
+
+use super::CurveFit;
+use super::solve::{Size, unscaled};
+use crate::Error;
+use crate::geometry::Curve;
+use crate::iteration::{Flow, HistoryEntry, NoObserver, Observer, Snapshot, Termination, Trace};
+use crate::knots::check_degree;
+use crate::points::{Extent, Points, PointsView};
+use crate::report::{CurveReport, RunReport};
+use attempt::{Attempt, Effort};
+use corners::{AUTO_ANGLE, find_corners};
+use pieces::Piece;
+use polyline::Polyline;
+use problem::{Measure, Problem};
+
+/// Rounds times points that take about a second.
+const EFFORT: usize = 2_000_000;
+/// Fewest and most rounds, where they are left to us.
+const ROUNDS: std::ops::RangeInclusive<usize> = 200..=4000;
+/// A last point this close to the first, in units of the extent, repeats it.
+const CLOSING_GAP: f64 = 1e-9;
+/// Demands are met with this much to spare, so that rounding does not break them.
+const SPARE: f64 = 1.0 - 1e-6;
+
+/// Finds a curve that keeps within a distance of ordered points, with as few control points as it
+/// can; or the closest one of a given size.
+///
+/// Breakpoints go where the distance is largest, are placed anew after the jumps of the highest
+/// derivative, and are taken out again as long as all demands are met. Every attempt is a weighted
+/// least squares fit whose parameters move towards their foot points (Rios and Juettler 2022) and
+/// whose weights move to the largest distances (Lawson 1961). Between the points the curve may stray
+/// from their polyline no farther than the tolerance and 1.5 times what a local interpolant does.
+/// At corners the curve meets the data point, with a knot of full multiplicity.
+///
+/// A goal that was not met is no error: see
+/// [`ApproximationReport::met`](crate::ApproximationReport::met).
+///
+/// # Errors
+/// What is wrong with the points or the options; see [`Error`].
+///
+/// # Examples
+/// ```
+/// use gimfit::{ApproximationOptions, approximate_curve};
+/// let points: Vec<[f64; 2]> = (0..200)
+///     .map(|i| {
+///         let x = f64::from(i) / 20.0;
+///         [x, x.sin()]
+///     })
+///     .collect();
+/// let fit = approximate_curve(&points, &ApproximationOptions::within(0.01))?;
+/// let account = fit.report.approximation.as_ref().unwrap();
+/// assert!(account.met && account.max_distance <= 0.01);
+/// assert!(fit.curve.control_points().len() <= 10);
+/// # Ok::<(), gimfit::Error>(())
+/// ```
+pub fn approximate_curve<'a>(
+    points: impl Into<PointsView<'a>>,
+    options: &ApproximationOptions,
+) -> Result<CurveFit, Error> {
+    approximate_curve_observed(points, options, &mut NoObserver)
+}
+
+/// As [`approximate_curve`], watched round by round; the observer sees the largest distance of the
+/// attempt at work, and may stop the search: the best attempt so far is returned.
+///
+/// # Errors
+/// As [`approximate_curve`].
+pub fn approximate_curve_observed<'a>(
+    points: impl Into<PointsView<'a>>,
+    options: &ApproximationOptions,
+    observer: &mut dyn Observer,
+) -> Result<CurveFit, Error> {
+    let points = points.into();
+    check_degree(options.degree)?;
+    let needed = options.degree.saturating_add(1);
+    if points.is_empty() {
+        return Err(Error::NoPoints { needed });
+    }
+    let size = Size::of(Extent::of(points)?);
+    let goal = check_goal(options, &size)?;
+    let (dimension, given) = (points.dimension(), points.len());
+    let mut choices = Vec::new();
+    let mut data = size.scale.apply(points.coordinates()).into_owned();
+    let centre = centre_at_origin(&mut data, dimension);
+    let diagonal = size.scale.up(size.extent.diagonal());
+    if diagonal == 0.0 && given > 1 {
+        return Err(Error::AllPointsEqual { points: given });
+    }
+    let mut closed = options.closed;
+    if closed && given > 1 {
+        let last = &data[(given - 1) * dimension..];
+        if polyline::distance(&data[..dimension], last) <= CLOSING_GAP * diagonal {
+            choices.push(
+                "closing: the last point repeats the first and is taken as the closing point"
+                    .into(),
+            );
+            data.truncate((given - 1) * dimension);
+        }
+    }
+    let count = data.len() / dimension;
+    if count < needed {
+        return Err(Error::TooFewPoints { points: count, degree: options.degree, needed });
+    }
+
+    let polyline = Polyline { data: &data, dimension, closed };
+    let scale_of_corners = goal.tolerance.unwrap_or(1e-3 * diagonal);
+    let mut corners = match options.corners {
+        Corners::None => Vec::new(),
+        Corners::Auto => find_corners(&polyline, scale_of_corners, AUTO_ANGLE),
+        Corners::Angle(least) => find_corners(&polyline, scale_of_corners, least),
+    };
+    if matches!(options.goal, Goal::ControlPoints(_)) && !corners.is_empty() {
+        corners.clear();
+        choices.push(
+            "corners: none are kept sharp where the number of control points is given".into(),
+        );
+    }
+    if closed && !corners.is_empty() {
+        closed = false;
+        choices.push(format!(
+            "closing: the curve closes with a corner, at point {}, so it is stored as an open one \
+             whose ends meet",
+            corners[0]
+        ));
+    }
+
+    let mut rounds = 0;
+    let mut cancelled = false;
+    let mut trace = Trace::with_room_for(0);
+    let pieces = pieces::split(&data, dimension, options.closed, &corners);
+    let most_rounds =
+        options.rounds.unwrap_or_else(|| (EFFORT / count).clamp(*ROUNDS.start(), *ROUNDS.end()));
+    let mut found: Vec<(Piece, Attempt)> = Vec::with_capacity(pieces.len());
+    for piece in pieces {
+        let tolerance = goal.tolerance.unwrap_or(1e-6 * diagonal) * SPARE;
+        let mut problem =
+            Problem::new(&piece.data, dimension, options.degree, closed, goal.measure, tolerance);
+        problem.pinned = !corners.is_empty();
+        let mut watch = |round: usize, attempt: &Attempt, tolerance: f64| {
+            let [largest, rms] = attempt.distances().map(|d| size.scale.undo(d * tolerance));
+            let entry = HistoryEntry {
+                iteration: rounds + round,
+                max_residual: largest,
+                rms_residual: rms,
+            };
+            trace.push(entry);
+            observer.observe(Snapshot { entry, control: &attempt.control }) == Flow::Continue
+        };
+        let mut effort =
+            Effort { rounds: 0, most: most_rounds, watch: &mut watch, stopped: cancelled };
+        let attempt = match goal.breaks {
+            Some(breaks) => search::best_with(&mut problem, breaks, &mut effort)?,
+            None => search::fewest(&problem, 0, &mut effort)?,
+        };
+        cancelled |= effort.stopped;
+        rounds += effort.rounds;
+        found.push((piece, attempt));
+    }
+
+    let joined = pieces::join(&found, options.degree, closed, dimension)?;
+    drop(found);
+    let mut control = joined.control;
+    control.chunks_exact_mut(dimension).for_each(|point| {
+        point.iter_mut().zip(&centre).for_each(|(x, c)| *x += c);
+    });
+    let curve = Curve::new(joined.knots.clone(), Points::new(dimension, control)?)?;
+    data.chunks_exact_mut(dimension).for_each(|point| {
+        point.iter_mut().zip(&centre).for_each(|(x, c)| *x += c);
+    });
+    let view = PointsView::new(dimension, &data)?;
+    let natural = joined.natural;
+    // A closed curve with corners is cut at the first of them: back to the order of the data.
+    let mut starts = joined.parameters;
+    if options.closed
+        && let Some(&first) = corners.first()
+    {
+        starts.truncate(count);
+        starts.rotate_right(first);
+    }
+    let verified = verify::verify(&curve, view, &starts, options.closed)?;
+    let limit = goal.tolerance.unwrap_or(verified.account.max_distance);
+    let mut account = verified.account;
+    account.met = goal.tolerance.is_none_or(|tolerance| match goal.measure {
+        Measure::Largest => account.max_distance <= tolerance,
+        Measure::Rms => account.rms_distance <= tolerance,
+    });
+    account.calm_limit = 1.05 * limit + 1.5 * natural;
+    account.corners = corners;
+    account.rounds = rounds;
+    account.pieces = joined.knots.nonempty_spans().count();
+    let undo = |x: f64| size.scale.undo(x);
+    for length in [
+        &mut account.max_distance,
+        &mut account.rms_distance,
+        &mut account.mean_distance,
+        &mut account.overshoot,
+        &mut account.calm_limit,
+    ] {
+        *length = undo(*length);
+    }
+    let termination = match (cancelled, account.met) {
+        (_, true) if !cancelled => Termination::Residual,
+        (true, _) => Termination::Cancelled,
+        _ if rounds >= most_rounds => Termination::Iterations,
+        _ => Termination::Stalled,
+    };
+    let control = unscaled(curve.control_points().clone(), size.scale)?;
+    let curve = Curve::new(joined.knots, control)?;
+    let worst = account.worst.first().copied().unwrap_or(0);
+    // After all attempts, the one that is returned.
+    trace.push(HistoryEntry {
+        iteration: rounds + 1,
+        max_residual: account.max_distance,
+        rms_residual: account.rms_distance,
+    });
+    let run = RunReport {
+        method: "approximation",
+        choices,
+        iterations: rounds,
+        iteration_returned: rounds,
+        termination,
+        residual_target: goal.tolerance.map_or(0.0, undo),
+        extent: size.extent.diagonal(),
+        max_residual: account.max_distance,
+        rms_residual: account.rms_distance,
+        smallest_eigenvalue: None,
+        history: trace.into_entries(),
+    };
+    let report = CurveReport {
+        points: count,
+        control_points: curve.control_points().len(),
+        degree: options.degree,
+        dimension,
+        closed: curve.is_periodic(),
+        parameterization: "foot points",
+        knot_placement: "sought",
+        spacing_ratio: verified.spacing_ratio,
+        shape: None,
+        run,
+        max_residual_index: worst,
+        max_deviation: account.max_distance,
+        max_deviation_index: worst,
+        approximation: Some(account),
+    };
+    Ok(CurveFit {
+        curve,
+        parameters: verified.parameters,
+        kept_points: (count < given).then(|| (0..count).collect()),
+        difference_vectors: unscaled(
+            Points::new(dimension, verified.difference_vectors)?,
+            size.scale,
+        )?,
+        report,
+        sequence: Vec::new(),
+    })
+}
+
+/// A goal in the unit that the search works in.
+struct ScaledGoal {
+    measure: Measure,
+    tolerance: Option<f64>,
+    breaks: Option<usize>,
+}
+
+fn check_goal(options: &ApproximationOptions, size: &Size) -> Result<ScaledGoal, Error> {
+    let distance = |what: &str, value: f64| {
+        if value > 0.0 && value.is_finite() {
+            return Ok(size.scale.up(value));
+        }
+        Err(Error::OutOfRange {
+            what: what.into(),
+            value,
+            rule: "it must be a distance above 0, in the unit of the points",
+        })
+    };
+    if let Corners::Angle(angle) = options.corners
+        && !(angle > 0.0 && angle < 180.0)
+    {
+        return Err(Error::OutOfRange {
+            what: "angle of corners".into(),
+            value: angle,
+            rule: "it must lie between 0 and 180 degrees",
+        });
+    }
+    Ok(match options.goal {
+        Goal::Tolerance(tolerance) => ScaledGoal {
+            measure: Measure::Largest,
+            tolerance: Some(distance("tolerance", tolerance)?),
+            breaks: None,
+        },
+        Goal::Rms(rms) => ScaledGoal {
+            measure: Measure::Rms,
+            tolerance: Some(distance("rms distance", rms)?),
+            breaks: None,
+        },
+        Goal::ControlPoints(count) => {
+            let least = options.degree + 1;
+            if count < least {
+                return Err(Error::WrongCount {
+                    what: "control points",
+                    given: count,
+                    expected: least,
+                    why: "a curve has at least degree + 1; ask for more, or lower the degree",
+                });
+            }
+            let breaks = if options.closed { count } else { count - least };
+            ScaledGoal { measure: Measure::Largest, tolerance: None, breaks: Some(breaks) }
+        }
+    })
+}
+
+/// Moves the middle of the bounding box to the origin, so that far-off data lose no digits to their
+/// place; gives the middle.
+fn centre_at_origin(data: &mut [f64], dimension: usize) -> Vec<f64> {
+    let mut low = vec![f64::INFINITY; dimension];
+    let mut high = vec![f64::NEG_INFINITY; dimension];
+    for point in data.chunks_exact(dimension) {
+        for i in 0..dimension {
+            low[i] = low[i].min(point[i]);
+            high[i] = high[i].max(point[i]);
+        }
+    }
+    let centre: Vec<f64> = low.iter().zip(&high).map(|(a, b)| a + 0.5 * (b - a)).collect();
+    data.chunks_exact_mut(dimension).for_each(|point| {
+        point.iter_mut().zip(&centre).for_each(|(x, c)| *x -= c);
+    });
+    centre
+}

@@ -1,0 +1,53 @@
+//! What a caller chooses for an approximation.
+
+/// What the curve is to reach.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Goal {
+    /// No data point farther from the curve than this, with as few control points as can be found.
+    Tolerance(f64),
+    /// The root of the mean squared distance no larger than this, likewise.
+    Rms(f64),
+    /// As close as can be with this many control points; a closed curve's repeated ones not counted.
+    ControlPoints(usize),
+}
+
+/// Points where the curve may turn at once.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Corners {
+    /// Those that the data show at the scale of the tolerance.
+    #[default]
+    Auto,
+    /// None: the curve is smooth everywhere.
+    None,
+    /// As [`Corners::Auto`], with the smallest turn given in degrees.
+    Angle(f64),
+}
+
+/// What a caller chooses for [`approximate_curve`](super::approximate_curve).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ApproximationOptions {
+    /// What is to be reached.
+    pub goal: Goal,
+    /// Degree, from 1.
+    pub degree: usize,
+    /// Whether the curve returns smoothly to its first point, which may be repeated at the end.
+    pub closed: bool,
+    /// Corners that stay sharp.
+    pub corners: Corners,
+    /// Most rounds of fitting and correcting parameters; `None`: as many as take a second or two.
+    pub rounds: Option<usize>,
+}
+
+impl ApproximationOptions {
+    /// A cubic within a distance of all points.
+    #[must_use]
+    pub fn within(tolerance: f64) -> Self {
+        Self::new(Goal::Tolerance(tolerance))
+    }
+
+    /// A cubic that reaches a goal.
+    #[must_use]
+    pub fn new(goal: Goal) -> Self {
+        Self { goal, degree: 3, closed: false, corners: Corners::Auto, rounds: None }
+    }
+}

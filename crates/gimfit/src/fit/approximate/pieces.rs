@@ -1,0 +1,111 @@
+//! Data in smooth pieces between corners, and the pieces joined again into one curve.
+
+use super::attempt::Attempt;
+use super::polyline::{Polyline, natural_overshoot};
+use crate::Error;
+use crate::knots::{Boundary, KnotVector};
+
+/// The data points of a piece, corners included.
+#[derive(Debug, Clone)]
+pub(super) struct Piece {
+    /// Shape (points, dimension).
+    pub(super) data: Vec<f64>,
+    dimension: usize,
+    closed: bool,
+}
+
+impl Piece {
+    fn polyline(&self) -> Polyline<'_> {
+        Polyline { data: &self.data, dimension: self.dimension, closed: self.closed }
+    }
+}
+
+/// Splits at corners; a closed polyline with corners is cut at the first and closes there.
+pub(super) fn split(data: &[f64], dimension: usize, closed: bool, corners: &[usize]) -> Vec<Piece> {
+    let points = data.len() / dimension;
+    let whole = |closed| Piece { data: data.to_vec(), dimension, closed };
+    if corners.is_empty() {
+        return vec![whole(closed)];
+    }
+    let mut ends: Vec<usize> = corners.to_vec();
+    if closed {
+        ends.push(corners[0] + points);
+    } else {
+        ends.insert(0, 0);
+        ends.push(points - 1);
+    }
+    ends.windows(2)
+        .map(|pair| Piece {
+            data: (pair[0]..=pair[1])
+                .flat_map(|j| &data[j % points * dimension..][..dimension])
+                .copied()
+                .collect(),
+            dimension,
+            closed: false,
+        })
+        .collect()
+}
+
+/// The pieces as one curve.
+pub(super) struct Joined {
+    pub(super) knots: KnotVector,
+    /// Stored control points.
+    pub(super) control: Vec<f64>,
+    /// One per data point of all pieces, a corner once.
+    pub(super) parameters: Vec<f64>,
+    /// What a local interpolant strays.
+    pub(super) natural: f64,
+}
+
+/// Joins pieces end to end. Their domains are as long as their polylines, so that the speed does not
+/// jump without need, [0, 1] in all.
+pub(super) fn join(
+    found: &[(Piece, Attempt)],
+    degree: usize,
+    closed: bool,
+    dimension: usize,
+) -> Result<Joined, Error> {
+    let natural =
+        found.iter().map(|(piece, _)| natural_overshoot(&piece.polyline())).fold(0.0, f64::max);
+    if closed {
+        let (_, attempt) = &found[0];
+        let count = attempt.breaks.len() as isize;
+        let around =
+            |i: isize| attempt.breaks[i.rem_euclid(count) as usize] + i.div_euclid(count) as f64;
+        let p = degree as isize;
+        let knots = KnotVector::periodic(degree, (-p..=count + p).map(around).collect())?;
+        debug_assert_eq!(knots.boundary(), Boundary::Periodic);
+        let stored = knots.control_points() * dimension;
+        let control = attempt.control.iter().copied().cycle().take(stored).collect();
+        let (start, end) = knots.domain();
+        let wrap = |t: &f64| (start + (t - start).rem_euclid(1.0)).clamp(start, end);
+        let parameters = attempt.parameters.iter().map(wrap).collect();
+        return Ok(Joined { knots, control, parameters, natural });
+    }
+    let lengths: Vec<f64> = found
+        .iter()
+        .map(|(piece, _)| {
+            let polyline = piece.polyline();
+            (0..polyline.legs()).map(|leg| polyline.leg_length(leg)).sum()
+        })
+        .collect();
+    let total: f64 = lengths.iter().sum();
+    let mut knots = vec![0.0; degree + 1];
+    let mut control: Vec<f64> = Vec::new();
+    let mut parameters: Vec<f64> = Vec::new();
+    let mut start = 0.0;
+    for (index, ((_, attempt), length)) in found.iter().zip(&lengths).enumerate() {
+        let last = index + 1 == found.len();
+        let share = length / total;
+        let end = if last { 1.0 } else { start + share };
+        let place = |t: f64| (start + t * (end - start)).clamp(start, end);
+        knots.extend(attempt.breaks.iter().map(|&t| place(t)));
+        knots.extend(std::iter::repeat_n(end, if last { degree + 1 } else { degree }));
+        // The joint belongs to both.
+        control.extend_from_slice(&attempt.control[if index == 0 { 0 } else { dimension }..]);
+        let from = usize::from(index > 0);
+        parameters.extend(attempt.parameters[from..].iter().map(|&t| place(t)));
+        start = end;
+    }
+    Ok(Joined { knots: KnotVector::open(degree, knots)?, control, parameters, natural })
+}

@@ -1,0 +1,96 @@
+//! The figures of an approximation, measured on the finished curve.
+
+use super::breaks::looks;
+use super::polyline::Polyline;
+use crate::Error;
+use crate::geometry::Curve;
+use crate::points::PointsView;
+use crate::projection::local_foot_point;
+use crate::report::ApproximationReport;
+
+/// What was measured.
+pub(super) struct Verified {
+    /// Parameters of the foot points, in order.
+    pub(super) parameters: Vec<f64>,
+    /// Shape (points, dimension).
+    pub(super) difference_vectors: Vec<f64>,
+    pub(super) spacing_ratio: f64,
+    pub(super) account: ApproximationReport,
+}
+
+/// Points named among the worst.
+const WORST: usize = 5;
+
+/// Projects all data points from their parameters, and samples the curve between them.
+pub(super) fn verify(
+    curve: &Curve,
+    data: PointsView<'_>,
+    starts: &[f64],
+    closed: bool,
+) -> Result<Verified, Error> {
+    let (count, dimension) = (data.len(), data.dimension());
+    let mut parameters = Vec::with_capacity(count);
+    let mut difference_vectors = Vec::with_capacity(count * dimension);
+    let mut distances = Vec::with_capacity(count);
+    for (j, &start) in starts.iter().enumerate() {
+        let foot = local_foot_point(curve, data.point(j), start)?;
+        difference_vectors.extend(data.point(j).iter().zip(&foot.point).map(|(q, c)| q - c));
+        parameters.push(foot.parameter);
+        distances.push(foot.distance);
+    }
+    // The parameters of the search cover the whole curve; foot points may leave its ends out.
+    let overshoot = overshoot(curve, data, starts, closed)?;
+    let mut order: Vec<usize> = (0..count).collect();
+    order.sort_by(|&a, &b| distances[b].total_cmp(&distances[a]));
+    order.truncate(WORST);
+    let max_distance = distances[order[0]];
+    let square: f64 = distances.iter().map(|x| x * x).sum();
+    let account = ApproximationReport {
+        met: false,
+        max_distance,
+        rms_distance: (square / count as f64).sqrt(),
+        mean_distance: distances.iter().sum::<f64>() / count as f64,
+        worst: order,
+        overshoot,
+        calm_limit: 0.0,
+        corners: Vec::new(),
+        pieces: 0,
+        rounds: 0,
+    };
+    let steps = || parameters.windows(2).map(|t| (t[1] - t[0]).abs()).filter(|&step| step > 0.0);
+    let spacing_ratio = steps().fold(0.0, f64::max) / steps().fold(f64::INFINITY, f64::min);
+    Ok(Verified {
+        spacing_ratio: if spacing_ratio.is_finite() { spacing_ratio } else { 1.0 },
+        parameters,
+        difference_vectors,
+        account,
+    })
+}
+
+/// How far the curve strays from the data polyline, sampled between parameters in order.
+fn overshoot(
+    curve: &Curve,
+    data: PointsView<'_>,
+    parameters: &[f64],
+    closed: bool,
+) -> Result<f64, Error> {
+    let dimension = data.dimension();
+    let polyline = Polyline { data: data.coordinates(), dimension, closed };
+    let (start, end) = curve.domain();
+    let inner = curve.knots().values();
+    let mut worst: f64 = 0.0;
+    let (mut point, mut nearest) = (vec![0.0; dimension], vec![0.0; dimension]);
+    for leg in 0..polyline.legs() {
+        let from = parameters[leg];
+        let mut to = parameters[(leg + 1) % parameters.len()];
+        if closed && to < from {
+            to += end - start;
+        }
+        for t in looks(from, to, inner, false).into_iter().chain([from, to]) {
+            let t = if t > end { t - (end - start) } else { t };
+            curve.evaluate_into(t.clamp(start, end), &mut point)?;
+            worst = worst.max(polyline.nearest(leg, 3, &point, &mut nearest));
+        }
+    }
+    Ok(worst)
+}
