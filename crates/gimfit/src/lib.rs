@@ -86,6 +86,7 @@ mod pages {
         Readme: "README.md",
         Contributing: "CONTRIBUTING.md",
         Anderson: "docs/methods/anderson.md",
+        Approximation: "docs/methods/approximation.md",
         Auto: "docs/methods/auto.md",
         Bases: "docs/methods/bases.md",
         Chebyshev: "docs/methods/chebyshev.md",
