@@ -117,7 +117,7 @@ fn refusals_name_the_cell_the_row_or_the_option() {
     refuse(matrix, "--method sor", "sor");
     refuse(matrix, "--samples 1x5", "--samples");
     refuse(matrix, "--per-direction --keep 1", "keeping fits");
-    refuse(matrix, "--knots sometimes", "no rule");
+    refuse(matrix, "--knots sometimes", "--knots takes averaged, not-a-knot");
     let run = gimfit(at, "surface grid.csv -o grid.csv").code(2);
     assert!(!text(&run.get_output().stderr).is_empty());
     assert_eq!(fs::read_to_string(at.join("grid.csv")).unwrap(), matrix);
@@ -227,7 +227,7 @@ fn choices_for_each_direction_come_from_rules_and_files() {
     says(&format!("{weighted} --weight 1.5,auto"), "--per-direction");
     says("surface peaks.csv --parameters none.txt", "--parameters takes chord");
     says("surface peaks.csv --parameters chord,", "a rule is missing");
-    says("surface peaks.csv --parameters -,- --knots -", "standard input");
+    says("surface peaks.csv --parameters=-,- --knots -", "standard input");
     says("surface peaks.csv --method jacobi", "one direction after the other");
     says("surface peaks.csv --parameters k.txt", "parameters");
 }
