@@ -285,13 +285,18 @@ pub(crate) struct WritingArguments {
 Examples:
   gimfit diagnose airfoil.dat
   gimfit diagnose track.gpx --columns east,north --degree 5 --tolerance 0.01
-  gimfit diagnose coast.csv --closed --json")]
+  gimfit diagnose coast.csv --closed --json
+  gimfit diagnose heights.csv --grid")]
 pub(crate) struct DiagnoseArguments {
     #[command(flatten)]
     pub(crate) input: InputArguments,
 
     #[command(flatten)]
     pub(crate) shape: ShapeArguments,
+
+    /// POINTS is a grid, for a surface: rules, degree and --closed count for both directions
+    #[arg(long, conflicts_with_all = ["abscissa", "sort", "period", "part"], help_heading = "Diagnosis")]
+    pub(crate) grid: bool,
 
     /// Residual to which steps are predicted, in the unit of the points [default: 1e-12 of the
     /// extent, or what rounding allows]

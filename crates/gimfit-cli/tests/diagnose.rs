@@ -106,3 +106,21 @@ fn the_weight_of_lemma_2_can_be_asked_for() {
     assert!(run.out.contains("Lemma 2"), "{}", run.out);
     place.run("curve wave.csv --method sor --weight lemma2").code(2).says(&["Lemma 2", "weighted"]);
 }
+
+#[test]
+fn grids_are_told_by_direction_and_at_once() {
+    let bruno = testdata("grids/mt_bruno.csv").display().to_string();
+    let place = Place::new();
+    let run = place.run(&format!("diagnose {bruno} --grid")).code(0);
+    for part in ["  u ", "  v ", "both at once", "u alone", "residuals fall slowest at row"] {
+        assert!(run.out.contains(part), "no {part:?} in {}", run.out);
+    }
+    let found = place.run(&format!("diagnose {bruno} --grid --json")).code(0).json();
+    let predicted = found["methods"][0]["iterations"].as_f64().unwrap();
+    let run = place.run(&format!("surface {bruno} --method pia --json -q")).code(0).json();
+    let measured = run["report"]["iterations"].as_f64().unwrap();
+    assert!(measured <= predicted && predicted <= 1.5 * measured, "{predicted} {measured}");
+    place.run(&format!("diagnose {bruno} --grid --basis dp")).code(2).says(&["--basis"]);
+    place.write("small.csv", "1,2\n3,4\n");
+    place.run("diagnose small.csv --grid").code(2).says(&["small.csv", "rows"]);
+}

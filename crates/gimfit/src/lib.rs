@@ -67,6 +67,7 @@ pub use fit::{
     approximate_curve_observed, diagnose_blending_curve, diagnose_curve, fit_blending_curve,
     fit_blending_surface, fit_curve, fit_curve_observed, fit_surface, fit_surface_observed,
 };
+pub use fit::{SurfaceDiagnosis, diagnose_surface};
 pub use geometry::{BlendingCurve, BlendingSurface, Curve, Surface};
 pub use iteration::{HistoryEntry, Termination};
 pub use knots::{KnotPlacement, KnotVector};

@@ -309,3 +309,37 @@ fn no_data_make_a_diagnosis_panic_or_tell_no_number() {
     let found = diagnose_curve(&line, &CurveOptions { degree: 1, ..Default::default() }).unwrap();
     assert!(found.matrix.forecasts.iter().all(|forecast| forecast.iterations == Some(0)));
 }
+
+#[test]
+fn grids_are_told_by_products_of_eigenvalues() {
+    let points: Vec<f64> = (0..12 * 9)
+        .flat_map(|k| {
+            let (x, y) = (f64::from(k / 9), f64::from(k % 9));
+            [x, y + 0.1 * (x * y).sin(), (0.7 * x).sin() * (0.5 * y).cos()]
+        })
+        .collect();
+    let grid = gimfit::GridView::new([12, 9], 3, &points).unwrap();
+    let options =
+        gimfit::SurfaceOptions { degrees: [3, 2], residual: Some(1e-9), ..Default::default() };
+    let found = gimfit::diagnose_surface(grid, &options).unwrap();
+    let methods =
+        [Method::Pia, Method::Weighted, Method::Jacobi, Method::GaussSeidel, Method::Chebyshev];
+    for (method, forecast) in methods.into_iter().zip(&found.at_once) {
+        let options = gimfit::SurfaceOptions { method, ..options.clone() };
+        let Some(predicted) = forecast.iterations.filter(|_| forecast.converges()) else {
+            // The fit refuses what would diverge.
+            assert!(gimfit::fit_surface(grid, &options).is_err(), "{forecast:?}");
+            continue;
+        };
+        let run = gimfit::fit_surface(grid, &options).unwrap().report.run;
+        let predicted = predicted as f64;
+        let measured = run.iterations as f64;
+        // From the rate alone, without the shares of the modes.
+        assert!(
+            measured <= 1.15 * predicted + 2.0 && predicted <= 1.5 * measured + 2.0,
+            "{forecast:?} {measured}"
+        );
+    }
+    let broken = gimfit::GridView::new([2, 2], 1, &[1.0, 2.0, 3.0, 4.0]).unwrap();
+    assert!(gimfit::diagnose_surface(broken, &options).is_err());
+}

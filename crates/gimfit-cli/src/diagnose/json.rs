@@ -72,7 +72,7 @@ fn value(case: &Case<'_>) -> Value {
     })
 }
 
-fn forecast(forecast: &Forecast) -> Value {
+pub(super) fn forecast(forecast: &Forecast) -> Value {
     json!({
         "method": forecast.method,
         "weight": forecast.weight,

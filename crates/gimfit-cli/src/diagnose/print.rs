@@ -61,7 +61,7 @@ pub(super) fn number(x: f64) -> String {
     }
 }
 
-fn spectrum(matrix: &Diagnosis) -> Vec<String> {
+pub(super) fn spectrum(matrix: &Diagnosis) -> Vec<String> {
     let bounds = &matrix.smallest;
     let mut list = Vec::new();
     if matrix.total_positivity.holds() {
@@ -98,7 +98,7 @@ fn spectrum(matrix: &Diagnosis) -> Vec<String> {
     list
 }
 
-fn proofs(matrix: &Diagnosis) -> Vec<String> {
+pub(super) fn proofs(matrix: &Diagnosis) -> Vec<String> {
     let positivity = match matrix.total_positivity {
         TotalPositivity::Known => {
             "totally positive, by the theory of the basis: plain PIA converges, whatever the spacing"
@@ -203,7 +203,7 @@ fn steps(case: &Case<'_>) -> Vec<String> {
 /// Growth of residuals that is worth a line.
 const GROWTH: f64 = 2.0;
 
-fn row(forecast: &Forecast) -> String {
+pub(super) fn row(forecast: &Forecast) -> String {
     let weight = match forecast.weight {
         Some(least) if forecast.method == "chebyshev" => format!("from {}", number(least)),
         Some(omega) => format!("{omega:.6}"),

@@ -315,6 +315,48 @@ fn chebyshev(windows: &[Window], least: f64, smallest: f64) -> Forecast {
     Forecast { method: "chebyshev", weight, rate, growth: 1.0, iterations, stalls, spectrum }
 }
 
+/// Forecasts for a Kronecker product, whose eigenvalues are products, with rules that act in both
+/// directions in every step. Steps are not told.
+#[must_use]
+pub fn at_once(directions: [&Diagnosis; 2]) -> Vec<Forecast> {
+    let product = |method: &str| {
+        let [(u_low, u_high), (v_low, v_high)] = directions.map(|direction| {
+            direction
+                .forecasts
+                .iter()
+                .find(|forecast| forecast.method == method)
+                .map_or((f64::NAN, f64::NAN), |forecast| forecast.spectrum)
+        });
+        (u_low * v_low, u_high * v_high)
+    };
+    let of = |method, weight, spectrum: (f64, f64), rate| Forecast {
+        method,
+        weight,
+        rate,
+        growth: 1.0,
+        iterations: None,
+        stalls: false,
+        spectrum,
+    };
+    let spread = |(low, high): (f64, f64)| (1.0 - low).abs().max((1.0 - high).abs());
+    let least = directions[0].smallest.for_weights() * directions[1].smallest.for_weights();
+    let omega = Weighted::best_for(least);
+    let (low, high) = product("pia");
+    let root = least.sqrt();
+    vec![
+        of("pia", None, (low, high), spread((low, high))),
+        of(
+            "weighted",
+            Some(omega),
+            (omega * low, omega * high),
+            spread((omega * low, omega * high)),
+        ),
+        of("jacobi", None, product("jacobi"), spread(product("jacobi"))),
+        of("gauss-seidel", None, product("gauss-seidel"), spread(product("gauss-seidel"))),
+        of("chebyshev", Some(least), (low, high), (1.0 - root) / (1.0 + root)),
+    ]
+}
+
 /// Steps in which a residual falls from one size to another at a steady rate.
 #[must_use]
 pub fn steps_at_rate(from: f64, to: f64, rate: f64) -> Option<u64> {

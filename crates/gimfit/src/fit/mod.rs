@@ -6,6 +6,7 @@ mod blending_surface;
 mod convex;
 mod curve;
 mod diagnose;
+mod diagnose_surface;
 mod intervals;
 mod keep;
 mod member;
@@ -25,6 +26,7 @@ pub use blending_surface::{
 };
 pub use curve::{CurveFit, fit_curve, fit_curve_observed, interpolate};
 pub use diagnose::{CurveDiagnosis, diagnose_blending_curve, diagnose_curve};
+pub use diagnose_surface::{SurfaceDiagnosis, diagnose_surface};
 pub use keep::KeptFit;
 pub use options::{
     BlendingOptions, BlendingSurfaceOptions, Convexity, CurveOptions, IterationWeight, Method,

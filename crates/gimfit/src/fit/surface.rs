@@ -153,7 +153,7 @@ pub fn fit_surface_observed(
 const CLOSING_GAP: f64 = 1e-9;
 
 /// The grid without the repetition of its first row or column in closed directions.
-fn open_up<'a>(
+pub(super) fn open_up<'a>(
     grid: GridView<'a>,
     size: &Size,
     options: &SurfaceOptions,
@@ -195,15 +195,15 @@ fn open_up<'a>(
 }
 
 /// What one direction brings along.
-struct Direction {
-    parameters: Parameters,
+pub(super) struct Direction {
+    pub(super) parameters: Parameters,
     knots: KnotVector,
-    built: Interpolation,
+    pub(super) built: Interpolation,
     parameterization: &'static str,
     knot_placement: &'static str,
 }
 
-fn direction(
+pub(super) fn direction(
     view: GridView<'_>,
     k: usize,
     options: &SurfaceOptions,
