@@ -4,6 +4,7 @@
 use crate::curve::ApproximationArguments;
 use crate::evaluate::SampleCount;
 use crate::surface::SurfaceArguments;
+use crate::triangle::TriangleArguments;
 use crate::values;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use gimfit::Duplicates;
@@ -29,9 +30,11 @@ pub(crate) enum Command {
     Curve(Box<CurveArguments>),
     /// Fit a surface through the points of a grid
     Surface(Box<SurfaceArguments>),
+    /// Fit a triangular patch through a triangular array of points
+    Triangle(Box<TriangleArguments>),
     /// Tell how a fit would go, before any run: spectrum, steps of each method, what is to blame
     Diagnose(Box<DiagnoseArguments>),
-    /// Sample a fitted curve or surface
+    /// Sample a fitted curve, surface or triangular patch
     Evaluate(EvaluateArguments),
     /// Tell what a file holds
     Info(InfoArguments),
@@ -422,17 +425,17 @@ pub(crate) enum MethodChoice {
 written; 130 interrupted, nothing half-written is left.")]
 #[command(group(clap::ArgGroup::new("where").required(true).args(["samples", "at"])))]
 pub(crate) struct EvaluateArguments {
-    /// Document of a fitted curve or surface (.json); - for standard input
+    /// Document of a fitted curve, surface or triangular patch (.json); - for standard input
     #[arg(value_name = "FILE")]
     pub(crate) document: PathBuf,
 
     /// Number of samples at equal steps of the parameter, ends included; for a surface one in u and
-    /// one in v, such as 100x80
+    /// one in v, such as 100x80; of a triangular patch along each edge
     #[arg(long, value_name = "N|MxN", value_parser = values::sample_count)]
     pub(crate) samples: Option<SampleCount>,
 
-    /// File of parameters to evaluate at, for a surface of pairs u,v; - for standard input. Where
-    /// the shape is closed they may lie beyond the domain
+    /// File of parameters to evaluate at, for a surface or a triangular patch of pairs u,v; - for
+    /// standard input. Where the shape is closed they may lie beyond the domain
     #[arg(long, value_name = "FILE")]
     pub(crate) at: Option<PathBuf>,
 

@@ -7,7 +7,8 @@ use anyhow::anyhow;
 use gimfit::PointsView;
 use gimfit::points::Extent;
 use gimfit_io::document::{
-    AnyDocument, Document, Geometry, SurfaceDocument, SurfaceKind, is_document, parse_any_document,
+    AnyDocument, Document, Geometry, SurfaceDocument, SurfaceKind, TriangleDocument, TriangleKind,
+    is_document, parse_any_document,
 };
 use gimfit_io::grids::{GridOptions, PointGrid, read_grid_from, says_grid};
 use gimfit_io::points::{PointTable, input_name, read_input, read_points_from};
@@ -20,6 +21,7 @@ pub(crate) fn run(arguments: &InfoArguments) -> anyhow::Result<Ending> {
     let facts = if is_document(&bytes) {
         match parse_any_document(&bytes, &name)? {
             AnyDocument::Surface(document) => of_surface(&document, name),
+            AnyDocument::Triangle(document) => of_triangle(&document, name),
             AnyDocument::Curve(document) => of_document(&document, name),
             _ => return Err(anyhow!("{name} holds a geometry that info does not know")),
         }
@@ -249,6 +251,37 @@ fn of_surface(document: &SurfaceDocument, name: String) -> Facts {
     }
     if let Some(sequence) = &document.sequence {
         let kept: Vec<usize> = sequence.iter().map(|kept| kept.entry.iteration).collect();
+        facts.add("kept_iterations", kept);
+    }
+    facts
+}
+
+fn of_triangle(document: &TriangleDocument, name: String) -> Facts {
+    let mut facts = Facts(Vec::new());
+    facts.add("file", name);
+    facts.add("holds", format!("gimfit document, version {}", document.version));
+    if let Some(TriangleKind::Triangle(triangle)) = &document.geometry {
+        facts.add("geometry", "triangular patch");
+        facts.add("degree", triangle.degree);
+        facts.add("dimension", triangle.dimension);
+        let count = triangle.control_points.values.len() / triangle.dimension.max(1);
+        facts.add("control_points", count);
+    }
+    if let Some(report) = &document.report {
+        if let Some(source) = &report.source {
+            facts.add("fitted_to", source.clone());
+        }
+        facts.add("points", report.points);
+        facts.add("method", report.run.method.clone());
+        facts.add("iterations", report.run.iterations);
+        facts.add("ended_by", report.run.termination.clone());
+        facts.add("largest_residual", report.run.max_residual);
+        facts.add("rms_residual", report.run.rms_residual);
+        facts.add("largest_deviation", report.max_deviation);
+        facts.add("extent", report.run.extent);
+    }
+    if let Some(sequence) = &document.sequence {
+        let kept: Vec<usize> = sequence.iter().map(|kept| kept.iteration).collect();
         facts.add("kept_iterations", kept);
     }
     facts

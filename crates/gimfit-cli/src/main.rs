@@ -21,6 +21,7 @@ mod shape;
 mod signal;
 mod surface;
 mod targets;
+mod triangle;
 mod values;
 
 use arguments::{Arguments, Command};
@@ -42,6 +43,7 @@ fn main() -> ExitCode {
         Command::Curve(arguments) => curve::run(&arguments),
         Command::Surface(arguments) => surface::run(&arguments),
         Command::Diagnose(arguments) => diagnose::run(&arguments),
+        Command::Triangle(arguments) => triangle::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Reproduce(arguments) => reproduce::run(&arguments),

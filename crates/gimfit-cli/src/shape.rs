@@ -1,8 +1,9 @@
-//! The curve or surface of a document.
+//! The curve, surface or triangular patch of a document.
 
 use anyhow::{anyhow, bail};
+use gimfit::geometry::TriangularPatch;
 use gimfit::{Curve, Surface};
-use gimfit_io::document::{AnyDocument, Geometry, SurfaceKind, parse_any_document};
+use gimfit_io::document::{AnyDocument, Geometry, SurfaceKind, TriangleKind, parse_any_document};
 use gimfit_io::points::{input_name, read_input};
 use std::path::Path;
 
@@ -10,6 +11,7 @@ use std::path::Path;
 pub(crate) enum Shape {
     Curve(Curve),
     Surface(Surface),
+    Triangle(TriangularPatch),
 }
 
 /// A fitted shape and the names of its coordinates, empty if the document tells none.
@@ -49,6 +51,20 @@ pub(crate) fn read(path: &Path, iteration: Option<usize>) -> anyhow::Result<Fitt
                 }
             };
             (Shape::Surface(surface), document.coordinate_names)
+        }
+        AnyDocument::Triangle(document) => {
+            let Some(TriangleKind::Triangle(geometry)) = &document.geometry else {
+                bail!("{name} holds no patch; write one with gimfit triangle POINTS -o FILE.json");
+            };
+            let sequence = document.sequence.as_deref().unwrap_or_default();
+            let patch = match iteration {
+                None => geometry.patch()?,
+                Some(wanted) => {
+                    let kept = kept(sequence, |fit| fit.iteration, wanted, &name)?;
+                    geometry.patch_with(&kept.control_points)?
+                }
+            };
+            (Shape::Triangle(patch), document.coordinate_names)
         }
         _ => bail!("{name} holds a geometry that cannot be evaluated"),
     };

@@ -38,6 +38,14 @@ pub(crate) fn sample_count(text: &str) -> Result<SampleCount, String> {
     samples(text).map(SampleCount::Curve)
 }
 
+/// Most samples along an edge of a triangle: half a billion in all.
+pub(crate) const MOST_TRIANGLE_SAMPLES: usize = 30_000;
+
+/// A number of samples along each edge of a triangle.
+pub(crate) fn triangle_samples(text: &str) -> Result<usize, String> {
+    within(text, 2, MOST_TRIANGLE_SAMPLES)
+}
+
 /// A highest derivative.
 pub(crate) fn derivatives(text: &str) -> Result<usize, String> {
     within(text, 0, MAX_DEGREE).map_err(|error| {

@@ -171,6 +171,16 @@ pub enum Error {
         "the fit leaves the range of doubles: parameters lie too close together, or coordinates too far apart, for this degree; use uniform or centripetal parameters, or scale the data"
     )]
     LeavesDoubles,
+    /// Barycentric coordinates outside the triangle of a patch.
+    #[error(
+        "(u, v) = ({u:?}, {v:?}) lies outside the triangle: u, v and 1 - u - v must not be negative"
+    )]
+    OutsideTriangle {
+        /// The first barycentric coordinate.
+        u: f64,
+        /// The second.
+        v: f64,
+    },
     /// A basis that does not blend: a function that is negative or no number, or functions that do
     /// not add up to one.
     #[error(

@@ -22,7 +22,7 @@
 //! * [`parameters`]: where each data point sits on the curve
 //! * [`knots`]: knot vectors and their placement
 //! * [`basis`]: blending functions
-//! * [`geometry`]: curves: evaluate, derive
+//! * [`geometry`]: curves, surfaces, triangular patches: evaluate, derive
 //! * [`collocation`]: rows of few weights, built once and applied many times; their spectrum
 //! * [`projection`]: foot points
 //! * [`iteration`]: the one loop and the rules that run through it
@@ -63,17 +63,20 @@ pub use error::Error;
 pub use fit::{
     ApproximationOptions, BlendingCurveFit, BlendingOptions, BlendingSurfaceFit,
     BlendingSurfaceOptions, Convexity, Corners, CurveDiagnosis, CurveFit, CurveOptions, Goal,
-    IterationWeight, KeptFit, Method, SurfaceFit, SurfaceOptions, SurfaceWeight, approximate_curve,
-    approximate_curve_observed, diagnose_blending_curve, diagnose_curve, fit_blending_curve,
-    fit_blending_surface, fit_curve, fit_curve_observed, fit_surface, fit_surface_observed,
+    IterationWeight, KeptFit, Method, SurfaceFit, SurfaceOptions, SurfaceWeight, TriangleFit,
+    TriangleOptions, approximate_curve, approximate_curve_observed, diagnose_blending_curve,
+    diagnose_curve, fit_blending_curve, fit_blending_surface, fit_curve, fit_curve_observed,
+    fit_surface, fit_surface_observed, fit_triangular_patch,
 };
 pub use fit::{SurfaceDiagnosis, diagnose_surface};
-pub use geometry::{BlendingCurve, BlendingSurface, Curve, Surface};
+pub use geometry::{BlendingCurve, BlendingSurface, Curve, Surface, TriangularPatch};
 pub use iteration::{HistoryEntry, Termination};
 pub use knots::{KnotPlacement, KnotVector};
 pub use parameters::Parameterization;
 pub use points::{Duplicates, GridView, PointGrid, Points, PointsView};
-pub use report::{ApproximationReport, CurveReport, RunReport, ShapeReport, SurfaceReport};
+pub use report::{
+    ApproximationReport, CurveReport, RunReport, ShapeReport, SurfaceReport, TriangleReport,
+};
 
 /// The Rust examples of the README and of the documentation pages, run as tests.
 #[cfg(doctest)]
@@ -103,6 +106,7 @@ mod pages {
         Preconditioned: "docs/methods/preconditioned.md",
         Stopping: "docs/methods/stopping.md",
         Surfaces: "docs/methods/surfaces.md",
+        Triangular: "docs/methods/triangular.md",
         Weighted: "docs/methods/weighted.md",
     }
 }

@@ -2,17 +2,40 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // A test that cannot go on has failed.
 
-use gimfit::collocation::interpolation;
+use gimfit::basis::WangBall;
+use gimfit::collocation::{DenseCollocation, interpolation};
 use gimfit::iteration::update::{
     Anderson, Chebyshev, ClosestConvex, ConvexityPreserving, GaussSeidel, Jacobi, PerPoint, Pia,
     Preconditioned, Sor, Staged, Weighted,
 };
 use gimfit::iteration::{IterationState, UpdateRule};
 use gimfit::knots::place_knots;
-use gimfit::parameters::assign_parameters;
+use gimfit::parameters::{Parameters, assign_parameters};
 use gimfit::shape::Shape;
 use gimfit::{KnotPlacement, Parameterization, PointsView};
 use gimfit_testkit::generate::{helix, random_walk};
+
+#[test]
+fn steps_on_a_dense_matrix_allocate_nothing() {
+    let basis = WangBall::new(20).unwrap();
+    let t = Parameters::open((0..21).map(|j| f64::from(j) / 20.0).collect()).unwrap();
+    let operator = DenseCollocation::new(&basis, &t).unwrap();
+    let data = helix(21);
+    let rules: [Box<dyn UpdateRule + '_>; 5] = [
+        Box::new(Pia),
+        Box::new(GaussSeidel::new(&operator)),
+        Box::new(Anderson::new(4, 63)),
+        Box::new(Preconditioned::new(&operator, None).unwrap()),
+        Box::new(Preconditioned::new(&operator, Some(2)).unwrap()),
+    ];
+    for mut rule in rules {
+        let mut state = IterationState::begin(&operator, &data, 3);
+        let counted = allocation_counter::measure(|| {
+            (0..9).for_each(|_| state.step(rule.as_mut()));
+        });
+        assert_eq!(counted.count_total, 0, "{rule:?}");
+    }
+}
 
 #[test]
 fn steps_allocate_nothing() {

@@ -1,7 +1,8 @@
-//! `gimfit evaluate`: samples of a fitted curve or surface.
+//! `gimfit evaluate`: samples of a fitted curve, surface or triangular patch.
 
 mod curve;
 mod surface;
+mod triangle;
 
 use crate::arguments::EvaluateArguments;
 use crate::shape::{self, Fitted, Shape};
@@ -40,6 +41,10 @@ pub(crate) fn run(arguments: &EvaluateArguments) -> anyhow::Result<Ending> {
         Shape::Surface(surface) => {
             let parameters = surface::parameters(&surface, arguments)?;
             Box::new(surface::SurfaceSamples { surface, parameters, order, names })
+        }
+        Shape::Triangle(patch) => {
+            let places = triangle::places(&patch, arguments)?;
+            Box::new(triangle::TriangleSamples { patch, places, names })
         }
     };
     match (kind, &arguments.output) {

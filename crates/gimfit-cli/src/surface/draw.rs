@@ -89,6 +89,7 @@ pub(super) fn figure(job: &Job<'_>) -> String {
         history: &history,
         stages: first,
         sequence: &sequence,
+        triangle: false,
     })
 }
 

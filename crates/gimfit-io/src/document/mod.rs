@@ -10,6 +10,7 @@ mod read;
 mod rows;
 mod run;
 mod surface;
+mod triangle;
 
 pub use approximation::ApproximationData;
 pub use blending::{BlendingData, SurfaceBlendingData};
@@ -21,6 +22,10 @@ pub use rows::PointRows;
 pub use run::{HistoryRow, RunData, Seconds};
 pub use surface::{
     NetFit, SurfaceDocument, SurfaceGeometry, SurfaceKind, SurfaceReportData, surface_document_of,
+};
+
+pub use triangle::{
+    TriangleDocument, TriangleGeometry, TriangleKind, TriangleReportData, triangle_document_of,
 };
 
 /// The document of a fit, without the times, which the library does not know.

@@ -1,6 +1,6 @@
 //! Reading a document back, checked.
 
-use super::{Document, Geometry, SurfaceDocument, SurfaceKind};
+use super::{Document, Geometry, SurfaceDocument, SurfaceKind, TriangleDocument, TriangleKind};
 use crate::points::{ReadError, input_name, read_input};
 use std::path::Path;
 
@@ -36,6 +36,14 @@ pub enum DocumentError {
         /// The file.
         name: String,
     },
+    /// A triangular patch where a curve was wanted.
+    #[error(
+        "{name} holds a triangular patch, and this is for curves; gimfit triangle writes samples of a patch with --samples"
+    )]
+    Triangle {
+        /// The file.
+        name: String,
+    },
     /// The geometry breaks a precondition.
     #[error("{name}: {reason}")]
     Geometry {
@@ -67,8 +75,10 @@ pub fn read_document(path: &Path) -> Result<Document, DocumentError> {
 /// # Errors
 /// [`DocumentError`].
 pub fn parse_document(bytes: &[u8], name: &str) -> Result<Document, DocumentError> {
-    if is_surface(bytes) {
-        return Err(DocumentError::Surface { name: name.into() });
+    match kind(bytes) {
+        Kind::Curve => {}
+        Kind::Surface => return Err(DocumentError::Surface { name: name.into() }),
+        Kind::Triangle => return Err(DocumentError::Triangle { name: name.into() }),
     }
     let document: Document = parse(bytes, name)?;
     if let Some(Geometry::Curve(curve)) = &document.geometry {
@@ -92,6 +102,8 @@ pub enum AnyDocument {
     Curve(Box<Document>),
     /// Of a surface.
     Surface(Box<SurfaceDocument>),
+    /// Of a triangular patch.
+    Triangle(Box<TriangleDocument>),
 }
 
 /// Reads a document of whatever kind it is, and checks that its geometry can be evaluated.
@@ -99,9 +111,26 @@ pub enum AnyDocument {
 /// # Errors
 /// [`DocumentError`].
 pub fn parse_any_document(bytes: &[u8], name: &str) -> Result<AnyDocument, DocumentError> {
-    if !is_surface(bytes) {
-        return Ok(AnyDocument::Curve(Box::new(parse_document(bytes, name)?)));
+    match kind(bytes) {
+        Kind::Curve => Ok(AnyDocument::Curve(Box::new(parse_document(bytes, name)?))),
+        Kind::Surface => parse_surface(bytes, name),
+        Kind::Triangle => parse_triangle(bytes, name),
     }
+}
+
+fn parse_triangle(bytes: &[u8], name: &str) -> Result<AnyDocument, DocumentError> {
+    let document: TriangleDocument = parse(bytes, name)?;
+    if let Some(TriangleKind::Triangle(triangle)) = &document.geometry {
+        let geometry = |reason| DocumentError::Geometry { name: name.into(), reason };
+        triangle.patch().map_err(geometry)?;
+        for fit in document.sequence.iter().flatten() {
+            triangle.patch_with(&fit.control_points).map_err(geometry)?;
+        }
+    }
+    Ok(AnyDocument::Triangle(Box::new(document)))
+}
+
+fn parse_surface(bytes: &[u8], name: &str) -> Result<AnyDocument, DocumentError> {
     let document: SurfaceDocument = parse(bytes, name)?;
     if let Some(SurfaceKind::Surface(surface)) = &document.geometry {
         let geometry = |reason| DocumentError::Geometry { name: name.into(), reason };
@@ -116,25 +145,36 @@ pub fn parse_any_document(bytes: &[u8], name: &str) -> Result<AnyDocument, Docum
     Ok(AnyDocument::Surface(Box::new(document)))
 }
 
-/// Whether a document says that it holds a surface, or a report of one.
-fn is_surface(bytes: &[u8]) -> bool {
+/// What a document says that it holds, or reports of.
+enum Kind {
+    Curve,
+    Surface,
+    Triangle,
+}
+
+fn kind(bytes: &[u8]) -> Kind {
     #[derive(serde::Deserialize)]
     struct Probe {
-        geometry: Option<Kind>,
+        geometry: Option<Typed>,
         report: Option<Report>,
     }
     #[derive(serde::Deserialize)]
-    struct Kind {
+    struct Typed {
         r#type: String,
     }
     #[derive(serde::Deserialize)]
     struct Report {
         degrees: Option<serde::de::IgnoredAny>,
+        triangle_degree: Option<serde::de::IgnoredAny>,
     }
-    serde_json::from_slice::<Probe>(bytes).is_ok_and(|probe| match (probe.geometry, probe.report) {
-        (Some(kind), _) => kind.r#type == "surface",
-        (None, report) => report.is_some_and(|report| report.degrees.is_some()),
-    })
+    let Ok(probe) = serde_json::from_slice::<Probe>(bytes) else { return Kind::Curve };
+    match (probe.geometry, probe.report) {
+        (Some(typed), _) if typed.r#type == "surface" => Kind::Surface,
+        (Some(typed), _) if typed.r#type == "triangle" => Kind::Triangle,
+        (None, Some(report)) if report.degrees.is_some() => Kind::Surface,
+        (None, Some(report)) if report.triangle_degree.is_some() => Kind::Triangle,
+        _ => Kind::Curve,
+    }
 }
 
 fn parse<T: serde::de::DeserializeOwned>(bytes: &[u8], name: &str) -> Result<T, DocumentError> {

@@ -31,6 +31,7 @@
 //!     residuals: &[0.0; 6],
 //!     extent: 2.4,
 //!     history: &[(0, 0.0, 0.0)],
+//!     triangle: false,
 //!     stages: None,
 //!     sequence: &[],
 //! });
@@ -111,6 +112,9 @@ pub struct SurfaceFigure<'a> {
     pub extent: f64,
     /// Iteration, largest residual and root mean square residual.
     pub history: &'a [(usize, f64, f64)],
+    /// Whether the data points and the net fill only the lower left triangle
+    /// of their square shapes, which the legend then counts.
+    pub triangle: bool,
     /// The step after which the history is that of the rows of what the
     /// columns gave, where one direction ran after the other.
     pub stages: Option<usize>,

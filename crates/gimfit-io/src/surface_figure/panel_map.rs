@@ -31,7 +31,8 @@ pub(super) fn draw(svg: &mut Svg, area: Rect, figure: &SurfaceFigure<'_>, notes:
     if zeros > 0 {
         bar.height -= colour_bar::FOR_ZERO;
     }
-    let count = text::grouped(errors.values.len());
+    // A triangle of points leaves the rest of its square without a number.
+    let count = text::grouped(errors.values.iter().filter(|value| !value.is_nan()).count());
     let scale = ErrorScale::of(errors.values, bar.bottom(), bar.y);
     draw_axes(svg, map, &errors);
     let Some(scale) = scale else {

@@ -156,7 +156,7 @@ fn draw_within(
             notes.add("control net behind or below the surface drawn pale".to_owned());
         }
     } else {
-        let size = size(&figure.net());
+        let size = size(figure, &figure.net());
         notes.add(format!("{size} control points too close together to be drawn"));
     }
     let mut dot_radius = 1.0;
@@ -170,7 +170,7 @@ fn draw_within(
             notes.add("data points behind the surface not drawn".to_owned());
         }
     } else {
-        let size = size(&figure.data());
+        let size = size(figure, &figure.data());
         notes.add(format!("{size} data points too close together to be drawn"));
     }
     svg.close("g");
@@ -187,8 +187,11 @@ fn data_is_drawn(figure: &SurfaceFigure<'_>) -> bool {
     strides.into_iter().all(|stride| stride <= LARGEST_STRIDE)
 }
 
-/// Rows and columns as text.
-fn size(grid: &Source<'_>) -> String {
+/// Rows and columns as text, or how many points a triangle has.
+fn size(figure: &SurfaceFigure<'_>, grid: &Source<'_>) -> String {
+    if figure.triangle {
+        return text::grouped(grid.rows() * (grid.rows() + 1) / 2);
+    }
     format!("{} × {}", text::grouped(grid.rows()), text::grouped(grid.columns()))
 }
 
@@ -213,13 +216,13 @@ pub(super) fn legend(figure: &SurfaceFigure<'_>, dot_radius: f64) -> Vec<Entry> 
     if data_is_drawn(figure) {
         entries.push(Entry {
             sample: Sample::Dot(style::DATA.to_owned(), dot_radius),
-            name: format!("data points ({})", size(&figure.data())),
+            name: format!("data points ({})", size(figure, &figure.data())),
         });
     }
     if net_is_drawn(figure) {
         entries.push(Entry {
             sample: Sample::Polygon(style::CONTROL.to_owned()),
-            name: format!("control net ({})", size(&figure.net())),
+            name: format!("control net ({})", size(figure, &figure.net())),
         });
     }
     entries

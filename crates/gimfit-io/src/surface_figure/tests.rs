@@ -80,6 +80,7 @@ impl Sample {
             history: &self.history,
             stages: None,
             sequence: &[],
+            triangle: false,
         }
     }
 

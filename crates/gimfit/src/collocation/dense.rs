@@ -92,6 +92,21 @@ impl DenseCollocation {
         &self.matrix
     }
 
+    /// Takes rows that `fill` writes, of functions known to blend, which are not totally positive.
+    pub(crate) fn from_rows(
+        name: &str,
+        count: usize,
+        smallest_eigenvalue: Option<f64>,
+        mut fill: impl FnMut(usize, &mut [f64]),
+    ) -> Result<Self, Error> {
+        let mut matrix = room(count)?;
+        for (j, row) in matrix.chunks_exact_mut(count).enumerate() {
+            fill(j, row);
+        }
+        let name = name.into();
+        Ok(Self { name, count, matrix, totally_positive: false, smallest_eigenvalue })
+    }
+
     /// Row `j`.
     #[must_use]
     pub fn row(&self, j: usize) -> &[f64] {

@@ -1,11 +1,13 @@
 //! A kept fit as a whole: its own geometry, difference vectors and report, measured anew.
 
 use super::solve::{Size, norm};
-use super::{CurveFit, KeptFit, SurfaceFit};
+use super::triangle::places;
+use super::{CurveFit, KeptFit, SurfaceFit, TriangleFit};
 use crate::Error;
+use crate::geometry::TriangularPatch;
 use crate::iteration::Termination;
 use crate::points::{Extent, PointGrid, Points, PointsView};
-use crate::projection::{largest_deviation, largest_surface_deviation};
+use crate::projection::{largest_deviation, largest_surface_deviation, largest_triangle_deviation};
 use crate::report::RunReport;
 
 impl CurveFit {
@@ -106,6 +108,44 @@ impl SurfaceFit {
         Ok(SurfaceFit {
             surface,
             parameters: self.parameters.clone(),
+            difference_vectors: Points::new(dimension, vectors)?,
+            report,
+            sequence: Vec::new(),
+        })
+    }
+}
+
+impl TriangleFit {
+    /// The fit kept at an iteration as a fit of its own, as [`CurveFit::member`].
+    ///
+    /// # Errors
+    /// As [`CurveFit::member`].
+    pub fn member(&self, iteration: usize) -> Result<TriangleFit, Error> {
+        let kept = kept(&self.sequence, iteration)?;
+        let (degree, dimension) = (self.report.degree, self.patch.dimension());
+        let patch = TriangularPatch::new(degree, kept.control_points.clone())?;
+        let places = places(degree);
+        let mut vectors = self.difference_vectors.coordinates().to_vec();
+        let mut data = vectors.clone();
+        let each = vectors.chunks_exact_mut(dimension).zip(data.chunks_exact_mut(dimension));
+        for ((vector, point), &[u, v]) in each.zip(&places) {
+            let (theirs, ours) = (self.patch.evaluate(u, v)?, patch.evaluate(u, v)?);
+            for i in 0..dimension {
+                point[i] += theirs[i];
+                vector[i] += theirs[i] - ours[i];
+            }
+        }
+        let measured = measure(&data, &vectors, dimension, |size, view, residuals| {
+            let control = size.scale.apply(kept.control_points.coordinates()).into_owned();
+            let patch = TriangularPatch::new(degree, Points::new(dimension, control)?)?;
+            largest_triangle_deviation(&patch, view, &places, residuals)
+        })?;
+        let mut report = self.report.clone();
+        report.run = run_of(&self.report.run, &measured, iteration);
+        report.max_residual_index = measured.max_residual.1;
+        (report.max_deviation, report.max_deviation_index) = measured.max_deviation;
+        Ok(TriangleFit {
+            patch,
             difference_vectors: Points::new(dimension, vectors)?,
             report,
             sequence: Vec::new(),

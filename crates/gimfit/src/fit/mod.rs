@@ -16,6 +16,7 @@ mod prepare;
 mod solve;
 mod surface;
 mod surface_method;
+mod triangle;
 
 pub use approximate::{
     ApproximationOptions, Corners, Goal, approximate_curve, approximate_curve_observed,
@@ -30,6 +31,9 @@ pub use diagnose_surface::{SurfaceDiagnosis, diagnose_surface};
 pub use keep::KeptFit;
 pub use options::{
     BlendingOptions, BlendingSurfaceOptions, Convexity, CurveOptions, IterationWeight, Method,
-    SurfaceOptions, SurfaceWeight,
+    SurfaceOptions, SurfaceWeight, TriangleOptions,
 };
 pub use surface::{SurfaceFit, fit_surface, fit_surface_observed};
+pub use triangle::{
+    TriangleFit, fit_triangular_patch, fit_triangular_patch_observed, triangular_collocation,
+};

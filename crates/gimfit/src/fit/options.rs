@@ -206,6 +206,33 @@ impl Default for BlendingSurfaceOptions {
     }
 }
 
+/// What a caller chooses for [`fit_triangular_patch`](super::fit_triangular_patch).
+#[derive(Debug, Clone, PartialEq)]
+pub struct TriangleOptions {
+    /// The rule that moves the control points.
+    pub method: Method,
+    /// Its weight.
+    pub weight: IterationWeight,
+    /// Most steps.
+    pub iterations: usize,
+    /// Largest residual to be reached, as in [`CurveOptions::residual`].
+    pub residual: Option<f64>,
+    /// Iterations whose fits are kept.
+    pub keep: Vec<usize>,
+}
+
+impl Default for TriangleOptions {
+    fn default() -> Self {
+        Self {
+            method: Method::Auto,
+            weight: IterationWeight::Auto,
+            iterations: 1000,
+            residual: None,
+            keep: Vec::new(),
+        }
+    }
+}
+
 /// What a caller chooses for [`fit_surface`](super::fit_surface); the defaults interpolate by a
 /// bicubic. Pairs hold direction u (rows), then direction v (columns).
 #[derive(Debug, Clone, PartialEq)]

@@ -6,12 +6,15 @@ mod curve;
 mod insertion;
 mod rational;
 mod surface;
+mod triangle;
 
 pub(crate) use bend::bend_signs;
 pub use blending::{BlendingCurve, BlendingSurface};
 pub use curve::Curve;
 pub(crate) use insertion::KnotInsertion;
 pub use surface::Surface;
+pub(crate) use triangle::check_triangle_degree;
+pub use triangle::{MAX_TRIANGLE_DEGREE, TriangularPatch, triangle_indices, triangle_points};
 
 use crate::Error;
 

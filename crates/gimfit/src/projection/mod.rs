@@ -10,9 +10,11 @@ mod patch;
 mod pieces;
 mod query;
 mod surface;
+mod triangle;
 
 pub(crate) use correction::MovingCurve;
 pub use curve::{FootPoint, largest_deviation, local_foot_point};
 pub use global_curve::CurveProjector;
 pub use global_surface::SurfaceProjector;
 pub use surface::{SurfaceFootPoint, largest_surface_deviation, local_surface_foot_point};
+pub use triangle::{largest_triangle_deviation, local_triangle_distance};

@@ -5,9 +5,11 @@ mod curve;
 mod run;
 mod shape;
 mod surface;
+mod triangle;
 
 pub use approximation::ApproximationReport;
 pub use curve::CurveReport;
 pub use run::RunReport;
 pub use shape::ShapeReport;
 pub use surface::SurfaceReport;
+pub use triangle::TriangleReport;
