@@ -36,6 +36,8 @@ pub(crate) enum Command {
     Diagnose(Box<DiagnoseArguments>),
     /// Sample a fitted curve, surface or triangular patch
     Evaluate(EvaluateArguments),
+    /// Find the nearest points of a fitted curve or surface
+    Project(Box<ProjectArguments>),
     /// Tell what a file holds
     Info(InfoArguments),
     /// Recompute published tables and show them beside the paper
@@ -450,6 +452,34 @@ pub(crate) struct EvaluateArguments {
     /// File to write, .csv or .json; - for CSV on standard output [default: -]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Exit status: 0 done; 2 wrong usage or input, or a file that could not be \
+written; 130 interrupted, nothing half-written is left.
+
+Examples:
+  gimfit project fit.json measured.csv
+  gimfit project fit.json measured.csv --columns x,y -o feet.csv")]
+pub(crate) struct ProjectArguments {
+    /// Document of a fitted curve or surface (.json); - for standard input
+    #[arg(value_name = "FIT")]
+    pub(crate) document: PathBuf,
+
+    #[command(flatten)]
+    pub(crate) input: InputArguments,
+
+    /// Project onto the fit kept at this iteration instead of the final one
+    #[arg(long, value_name = "N")]
+    pub(crate) iteration: Option<usize>,
+
+    /// File for the foot points, .csv or .json; - for CSV on standard output in place of the report
+    #[arg(short, long, value_name = "FILE", help_heading = "Writing")]
+    pub(crate) output: Option<PathBuf>,
+
+    /// Print the report as JSON
+    #[arg(long, help_heading = "Writing")]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]

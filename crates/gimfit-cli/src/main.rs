@@ -15,6 +15,7 @@ mod method;
 mod output;
 mod outputs;
 mod progress;
+mod project;
 mod report_text;
 mod reproduce;
 mod shape;
@@ -45,6 +46,7 @@ fn main() -> ExitCode {
         Command::Diagnose(arguments) => diagnose::run(&arguments),
         Command::Triangle(arguments) => triangle::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),
+        Command::Project(arguments) => project::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Reproduce(arguments) => reproduce::run(&arguments),
         Command::Completions(arguments) => complete::completions(&arguments),

@@ -89,6 +89,25 @@ pub fn write_surface_samples(
     table.flush()
 }
 
+/// Writes foot points, a row each: parameters under `labels`, the coordinates, and `distance`.
+///
+/// # Errors
+/// What the writer says.
+pub fn write_feet<R: Iterator<Item = f64>>(
+    out: &mut dyn Write,
+    labels: &[&str],
+    names: &[String],
+    rows: impl Iterator<Item = R>,
+) -> io::Result<()> {
+    let mut table = csv::Writer::from_writer(out);
+    let head = labels.iter().copied().chain(names.iter().map(String::as_str)).chain(["distance"]);
+    table.write_record(head).map_err(io_error)?;
+    for row in rows {
+        table.write_record(row.map(|x| format!("{x:?}"))).map_err(io_error)?;
+    }
+    table.flush()
+}
+
 /// What the writer said, without the wrapping that would hide which kind of error it is.
 fn io_error(error: csv::Error) -> io::Error {
     match error.into_kind() {

@@ -101,6 +101,7 @@ mod pages {
         GaussSeidel: "docs/methods/gauss-seidel.md",
         Jacobi: "docs/methods/jacobi.md",
         Knots: "docs/methods/knots.md",
+        Nurbs: "docs/methods/nurbs.md",
         Parameters: "docs/methods/parameters.md",
         Pia: "docs/methods/pia.md",
         Preconditioned: "docs/methods/preconditioned.md",

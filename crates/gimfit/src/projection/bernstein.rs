@@ -72,9 +72,9 @@ pub(super) fn least_of_convex(h: &[f64]) -> f64 {
     let (low, high) = (slopes[above - 1], slopes[above]);
     let mut s = (above as f64 - 1.0 - low / (high - low)) / (count - 1) as f64;
     let (mut least, mut most) = (0.0, 1.0);
+    let mut work = [0.0; MOST];
+    let work = &mut work[..count];
     for _ in 0..60 {
-        let mut work = [0.0; MOST];
-        let work = &mut work[..count];
         work.copy_from_slice(slopes);
         for r in 1..count - 1 {
             for i in 0..count - r {
@@ -89,11 +89,19 @@ pub(super) fn least_of_convex(h: &[f64]) -> f64 {
             least = s
         }
         let newton = s - value / (rise * (count - 1) as f64);
-        let next = if newton > least && newton < most { newton } else { 0.5 * (least + most) };
-        if (next - s).abs() <= 1e-16 || value == 0.0 {
-            return s;
+        if newton > least && newton < most {
+            // Digits double with each step of Newton, so that this one has reached rounding.
+            let last = (newton - s).abs() <= 1e-8;
+            s = newton;
+            if last {
+                break;
+            }
+        } else {
+            s = 0.5 * (least + most);
+            if value == 0.0 || most - least <= 1e-16 {
+                break;
+            }
         }
-        s = next;
     }
     s
 }

@@ -73,13 +73,12 @@ impl BoxTree {
     /// Square of the distance of a point from the box of a node.
     fn distance(&self, node: usize, point: &[f64]) -> f64 {
         let corners = &self.corners[node * 2 * self.dimension..][..2 * self.dimension];
-        let (lower, upper) = corners.split_at(self.dimension);
-        let mut sum = 0.0;
-        for ((x, low), high) in point.iter().zip(lower).zip(upper) {
-            let gap = (low - x).max(x - high).max(0.0);
-            sum += gap * gap;
+        // The usual dimensions as numbers that the compiler knows.
+        match self.dimension {
+            2 => box_distance::<2>(corners, point),
+            3 => box_distance::<3>(corners, point),
+            _ => box_distance::<0>(corners, point),
         }
-        sum
     }
 
     /// Calls `visit` with pieces, near ones first, that may come nearer than the square it gave
@@ -115,6 +114,20 @@ impl BoxTree {
             }
         }
     }
+}
+
+/// `D` is the dimension known at compile time, or 0 for one known only now.
+#[inline(always)]
+fn box_distance<const D: usize>(corners: &[f64], point: &[f64]) -> f64 {
+    let dimension = if D == 0 { point.len() } else { D };
+    let (lower, upper) = corners.split_at(dimension);
+    let (point, upper) = (&point[..dimension], &upper[..dimension]);
+    let mut sum = 0.0;
+    for k in 0..dimension {
+        let gap = (lower[k] - point[k]).max(point[k] - upper[k]).max(0.0);
+        sum += gap * gap;
+    }
+    sum
 }
 
 fn corners_of(points: &[f64], dimension: usize) -> Vec<f64> {
