@@ -149,7 +149,8 @@ pub(crate) struct CurveArguments {
 /// What decides the collocation matrix of a curve: the same for a fit and a diagnosis.
 #[derive(Debug, Args)]
 pub(crate) struct ShapeArguments {
-    /// Degree of the curve [default: 3; with another basis than b-spline one less than the points]
+    /// Degree of the curve [default: 3; with another basis than b-spline, and with bezier knots, one
+    /// less than the points]
     #[arg(long, value_name = "P", help_heading = "Curve")]
     pub(crate) degree: Option<usize>,
 
@@ -185,10 +186,15 @@ pub(crate) struct ShapeArguments {
     )]
     pub(crate) period: Option<f64>,
 
-    /// Knots: averaged, not-a-knot (odd degrees), at-data (odd degrees; tied ends), uniform, or a
-    /// file of numbers [default: averaged]
+    /// Knots: averaged, not-a-knot (odd degrees), at-data (odd degrees; tied ends), uniform, bezier
+    /// (none inside, degree one less than the points), or a file of numbers [default: averaged]
     #[arg(long, value_name = "RULE|FILE", help_heading = "Curve")]
     pub(crate) knots: Option<RuleOrFile<KnotRule>>,
+
+    /// File of positive weights, one per point, that make the curve rational (NURBS); only their
+    /// ratios count
+    #[arg(long, value_name = "FILE", help_heading = "Curve")]
+    pub(crate) rational_weights: Option<PathBuf>,
 
     /// What to do with points that repeat their predecessor
     #[arg(
@@ -357,6 +363,7 @@ pub(crate) enum KnotRule {
     NotAKnot,
     AtData,
     Uniform,
+    Bezier,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

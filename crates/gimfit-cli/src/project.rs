@@ -6,7 +6,7 @@ use crate::report_text::Lines;
 use crate::shape::{self, Shape};
 use crate::targets::{self, Kind, is_standard};
 use crate::{Ending, input, output, signal};
-use anyhow::ensure;
+use anyhow::{bail, ensure};
 use gimfit::PointsView;
 use gimfit::projection::{CurveProjector, SurfaceProjector};
 use gimfit_io::points::{PointTable, input_name};
@@ -40,6 +40,9 @@ pub(crate) fn run(arguments: &ProjectArguments) -> anyhow::Result<Ending> {
     let (what, dimension) = match &fitted.shape {
         Shape::Curve(curve) => ("curve", curve.dimension()),
         Shape::Surface(surface) => ("surface", surface.dimension()),
+        Shape::Triangle(_) => bail!(
+            "{document} holds a triangular patch; points are projected onto curves and surfaces"
+        ),
     };
     ensure!(
         table.dimension() == dimension,
@@ -116,6 +119,8 @@ fn feet(shape: &Shape, table: &PointTable) -> anyhow::Result<Vec<Foot>> {
                 distance: foot.distance,
             })
             .collect(),
+        // Refused before.
+        Shape::Triangle(_) => Vec::new(),
     })
 }
 

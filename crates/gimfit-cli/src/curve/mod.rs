@@ -29,7 +29,7 @@ use gimfit::{
 use gimfit_io::document::{BlendingData, Document, Seconds, document_of};
 use gimfit_io::points::PointTable;
 use plan::{Plan, Recipe};
-pub(crate) use plan::{Shape, knot_placement, shape};
+pub(crate) use plan::{Shape, degree, knot_placement, shape};
 use std::sync::Arc;
 use std::time::Instant;
 

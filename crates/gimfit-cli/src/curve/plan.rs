@@ -9,6 +9,7 @@ use crate::input;
 use crate::method::{ensure_kept_fits_fit, method, weight, weight_file};
 use anyhow::{bail, ensure};
 use gimfit::basis::BlendingBasis;
+use gimfit::knots::MAX_DEGREE;
 use gimfit::{ApproximationOptions, Convexity, CurveOptions, KnotPlacement, Parameterization};
 use gimfit_io::points::PointTable;
 use std::path::Path;
@@ -85,15 +86,53 @@ pub(crate) fn shape(input: &InputArguments, shape: &ShapeArguments) -> anyhow::R
         table.sort_by_abscissa();
     }
     let basis = blending(shape, &table)?;
+    let bezier = shape.knots == Some(RuleOrFile::Rule(KnotRule::Bezier));
+    let default = CurveOptions::default().degree;
     let options = CurveOptions {
-        degree: shape.degree.unwrap_or(CurveOptions::default().degree),
+        degree: degree(shape.degree, bezier, table.rows(), "points", default, &table.source)?,
         closed: shape.closed,
         parameterization: parameterization(shape, &mut table)?,
         knot_placement: shape.knots.as_ref().map(knot_placement).transpose()?,
+        rational_weights: rational_weights(shape, &table)?,
         duplicates: shape.duplicates.into(),
         ..CurveOptions::default()
     };
     Ok(Shape { table, options, basis })
+}
+
+/// The degree: that asked for, or of a Bezier curve what the number of `points` makes it.
+pub(crate) fn degree(
+    asked: Option<usize>,
+    bezier: bool,
+    count: usize,
+    points: &str,
+    default: usize,
+    source: &str,
+) -> anyhow::Result<usize> {
+    if !bezier || asked.is_some() {
+        return Ok(asked.unwrap_or(default));
+    }
+    ensure!(
+        (2..=MAX_DEGREE + 1).contains(&count),
+        "{source}: --knots bezier makes one piece of degree {} of {count} {points}, and degrees from \
+         1 to {MAX_DEGREE} are possible; use other knots",
+        count as i64 - 1
+    );
+    Ok(count - 1)
+}
+
+/// The weights of `--rational-weights`, in the order of the points.
+fn rational_weights(
+    shape: &ShapeArguments,
+    table: &PointTable,
+) -> anyhow::Result<Option<Vec<f64>>> {
+    let Some(path) = &shape.rational_weights else { return Ok(None) };
+    let weights = input::numbers(path, "--rational-weights", &[])?;
+    Ok(Some(match &table.row_positions {
+        // Points that were sorted take their weights along.
+        Some(order) if weights.len() == order.len() => order.iter().map(|&j| weights[j]).collect(),
+        _ => weights,
+    }))
 }
 
 /// The basis that is no B-spline, with the options that would contradict it refused.
@@ -105,6 +144,11 @@ fn blending(
     if basis.is_some() {
         only_b_splines("--degree", shape.degree.is_some(), "the points give the degree")?;
         only_b_splines("--knots", shape.knots.is_some(), "other bases have none")?;
+        only_b_splines(
+            "--rational-weights",
+            shape.rational_weights.is_some(),
+            "--knots bezier makes a rational Bezier curve of them",
+        )?;
         only_b_splines("--closed", shape.closed, "other bases are open")?;
         only_b_splines(
             "--duplicates",
@@ -140,6 +184,9 @@ pub(super) fn inputs(arguments: &CurveArguments) -> Vec<(&str, &Path)> {
     }
     if let Some(RuleOrFile::File(path)) = &arguments.shape.knots {
         inputs.push(("--knots", path));
+    }
+    if let Some(path) = &arguments.shape.rational_weights {
+        inputs.push(("--rational-weights", path));
     }
     if let Some(path) = weight_file(&arguments.iteration.weight) {
         inputs.push(("--weight", path));
@@ -207,6 +254,7 @@ pub(crate) fn knot_placement(choice: &RuleOrFile<KnotRule>) -> anyhow::Result<Kn
         RuleOrFile::Rule(KnotRule::NotAKnot) => KnotPlacement::NotAKnot,
         RuleOrFile::Rule(KnotRule::AtData) => KnotPlacement::AtData,
         RuleOrFile::Rule(KnotRule::Uniform) => KnotPlacement::Uniform,
+        RuleOrFile::Rule(KnotRule::Bezier) => KnotPlacement::Bezier,
         RuleOrFile::File(path) => {
             let names = RuleOrFile::<KnotRule>::names();
             KnotPlacement::Given(input::numbers(path, "--knots", &names)?)

@@ -101,6 +101,11 @@ pub(crate) struct SurfaceArguments {
     #[arg(long, value_name = "RULE|FILE[,RULE|FILE]", help_heading = "Surface")]
     pub(crate) knots: Option<Pair<RuleOrFile<KnotRule>>>,
 
+    /// File of positive weights, one per point, row by row, that make the surface rational (NURBS); only their
+    /// ratios count
+    #[arg(long, value_name = "FILE", help_heading = "Surface")]
+    pub(crate) rational_weights: Option<PathBuf>,
+
     #[command(flatten)]
     pub(crate) iteration: IterationArguments,
 

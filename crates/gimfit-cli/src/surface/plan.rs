@@ -1,9 +1,9 @@
 //! From arguments to a grid and options, with all that can be checked before the run.
 
 use super::arguments::{ClosedChoice, GridParameterRule, SurfaceArguments};
-use crate::arguments::RuleOrFile;
+use crate::arguments::{KnotRule, RuleOrFile};
 use crate::basis::{basis, only_b_splines};
-use crate::curve::knot_placement;
+use crate::curve::{degree, knot_placement};
 use crate::input;
 use crate::method::{ensure_kept_fits_fit, method, weight, weight_file};
 use crate::targets::is_standard;
@@ -61,14 +61,24 @@ impl Plan {
             arguments.knots.as_ref().map(|choices| knot_placement(&choices.0[k])).transpose()
         };
         let bases = blending(arguments, &grid)?;
+        let counts = [(grid.rows, "rows of points"), (grid.columns, "columns of points")];
+        let degree = |k: usize| {
+            let rule = arguments.knots.as_ref().map(|choices| &choices.0[k]);
+            let bezier = rule == Some(&RuleOrFile::Rule(KnotRule::Bezier));
+            let asked = arguments.degree.as_ref().map(|pair| pair.0[k]);
+            let default = SurfaceOptions::default().degrees[k];
+            degree(asked, bezier, counts[k].0, counts[k].1, default, &grid.source)
+        };
         let options = SurfaceOptions {
-            degrees: arguments
-                .degree
-                .as_ref()
-                .map_or(SurfaceOptions::default().degrees, |pair| pair.0),
+            degrees: [degree(0)?, degree(1)?],
             closed: arguments.closed.each(),
             parameterizations: [parameterization(0)?, parameterization(1)?],
             knot_placements: [placement(0)?, placement(1)?],
+            rational_weights: arguments
+                .rational_weights
+                .as_ref()
+                .map(|path| input::numbers(path, "--rational-weights", &[]))
+                .transpose()?,
             method,
             weight,
             per_direction: arguments.per_direction,
@@ -112,6 +122,11 @@ fn blending(
     };
     only_b_splines("--degree", arguments.degree.is_some(), "the points give the degrees")?;
     only_b_splines("--knots", arguments.knots.is_some(), "other bases have none")?;
+    only_b_splines(
+        "--rational-weights",
+        arguments.rational_weights.is_some(),
+        "--knots bezier makes a rational Bezier surface of them",
+    )?;
     only_b_splines("--closed", arguments.closed != ClosedChoice::None, "other bases are open")?;
     Ok(Some(bases))
 }
@@ -125,6 +140,7 @@ pub(super) fn inputs(arguments: &SurfaceArguments) -> Vec<(&str, &Path)> {
     for choice in arguments.knots.iter().flat_map(|pair| &pair.0) {
         inputs.extend(file(choice).map(|path| ("--knots", path)));
     }
+    inputs.extend(arguments.rational_weights.as_deref().map(|path| ("--rational-weights", path)));
     let weights = arguments.iteration.weight.split(',').map(str::trim);
     inputs.extend(weights.filter_map(weight_file).map(|path| ("--weight", path)));
     // One file for both directions is read twice, which standard input cannot be.

@@ -45,6 +45,21 @@ impl BandedCollocation {
             .filter(|&(_, weight)| weight != 0.0)
     }
 
+    /// Collocates the rational functions `w_i B_i / sum_l w_l B_l` in place of the `B_i`, for positive
+    /// weights of the control points that move. A totally positive matrix stays so.
+    pub(crate) fn weigh(&mut self, rational_weights: &[f64]) {
+        let columns = self.first.len() as i32;
+        let rows = self.first.iter().zip(self.weights.chunks_exact_mut(self.width));
+        for (&first, row) in rows {
+            let mut sum = 0.0;
+            for (k, entry) in row.iter_mut().enumerate() {
+                *entry *= rational_weights[(first + k as i32).rem_euclid(columns) as usize];
+                sum += *entry;
+            }
+            row.iter_mut().for_each(|entry| *entry /= sum);
+        }
+    }
+
     /// The diagonally compensated reduction to a half bandwidth.
     fn compensated(&self, half_bandwidth: usize) -> Self {
         let mut reduced = self.clone();

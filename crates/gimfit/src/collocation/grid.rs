@@ -220,7 +220,7 @@ impl CollocationOperator for AlongCollocation<'_> {
 }
 
 /// Norms of difference vectors that stand in an array.
-fn norms_of(vectors: &[f64], dimension: usize) -> ResidualNorms {
+pub(super) fn norms_of(vectors: &[f64], dimension: usize) -> ResidualNorms {
     let (mut largest, mut max_index, mut sum) = (0.0, 0, 0.0);
     for (j, vector) in vectors.chunks_exact(dimension).enumerate() {
         let square: f64 = vector.iter().map(|x| x * x).sum();

@@ -12,6 +12,7 @@ mod grid;
 pub(crate) mod kernel;
 mod layout;
 mod least_squares;
+mod rational_net;
 mod spectrum;
 
 pub use banded::BandedCollocation;
@@ -22,6 +23,7 @@ pub use factor::Factorization;
 pub use grid::{AcrossCollocation, AlongCollocation, TensorCollocation};
 pub use layout::{ControlLayout, NetLayout};
 pub(crate) use least_squares::DataRows;
+pub use rational_net::{NetWeights, RationalTensorCollocation};
 pub use spectrum::{
     Eigenvalue, EigenvalueBounds, all_eigenvalues, best_weight, eigenvalues, gauss_seidel_rate,
     largest_jacobi_eigenvalue, lemma2_weight, rate_with_weight, smallest_eigenvalue,

@@ -120,7 +120,7 @@ pub fn fit_blending_surface_observed(
     let setting = Setting {
         view,
         size: &size,
-        directions: Directions { u: &u.operator, v: &v.operator },
+        directions: Directions { u: &u.operator, v: &v.operator, rational: None },
         options: &net_options,
         stopping,
         expand: &|control| control,

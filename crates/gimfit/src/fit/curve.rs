@@ -3,6 +3,7 @@
 use super::convex::{Interpolating, Keeping};
 use super::method::choose;
 use super::prepare::{Prepared, prepare};
+use super::rational::fitted_weights;
 use super::solve::{Size, Task, norm, solve, unscaled};
 use super::{CurveOptions, KeptFit};
 use crate::Error;
@@ -77,7 +78,8 @@ pub fn fit_curve_observed<'a>(
     options: &CurveOptions,
     observer: &mut dyn Observer,
 ) -> Result<CurveFit, Error> {
-    let prepared = prepare(points.into(), options)?;
+    let points = points.into();
+    let prepared = prepare(points, options)?;
     let Prepared { cleaned, extent, parameterization, mut choices, dimension } = prepared;
     let size = Size::of(extent);
     let data = size.scale.apply(&cleaned.coordinates);
@@ -88,7 +90,13 @@ pub fn fit_curve_observed<'a>(
     };
     let Located { parameters, knots, placement } =
         locate(view, &parameterization, options, &mut choices).map_err(renumber)?;
-    let problem = Problem { data: view, size, parameters, knots };
+    let rational_weights = fitted_weights(
+        options.rational_weights.as_deref(),
+        points.len(),
+        view.len(),
+        cleaned.original(),
+    )?;
+    let problem = Problem { data: view, size, parameters, knots, rational_weights };
     let mut fit = fit_problem(problem, options, observer).map_err(renumber)?;
     fit.report.parameterization = parameterization_name(&parameterization);
     fit.report.knot_placement = placement_name(&placement);
@@ -135,7 +143,7 @@ pub(super) fn locate(
 }
 
 /// Interpolates points at parameters and over knots that are already known; of the options, those
-/// on methods and stopping count.
+/// on rational weights, methods and stopping count.
 ///
 /// # Errors
 /// As [`fit_curve`].
@@ -158,7 +166,11 @@ pub fn interpolate<'a>(
     let size = Size::of(extent);
     let data = size.scale.apply(points.coordinates());
     let view = PointsView::new(points.dimension(), &data)?;
-    fit_problem(Problem { data: view, size, parameters, knots }, options, &mut NoObserver)
+    let count = points.len();
+    let rational_weights =
+        fitted_weights(options.rational_weights.as_deref(), count, count, |j| j)?;
+    let problem = Problem { data: view, size, parameters, knots, rational_weights };
+    fit_problem(problem, options, &mut NoObserver)
 }
 
 /// Everything a run needs; the data are scaled.
@@ -167,6 +179,8 @@ struct Problem<'a> {
     size: Size,
     parameters: Parameters,
     knots: KnotVector,
+    /// One per point.
+    rational_weights: Option<Vec<f64>>,
 }
 
 fn fit_problem(
@@ -174,11 +188,21 @@ fn fit_problem(
     options: &CurveOptions,
     observer: &mut dyn Observer,
 ) -> Result<CurveFit, Error> {
-    let Problem { data, size, parameters, knots } = problem;
+    let Problem { data, size, parameters, knots, rational_weights } = problem;
     let scale = size.scale;
-    let Interpolation { operator, layout } = interpolation(&parameters, &knots)?;
+    let Interpolation { mut operator, layout } = interpolation(&parameters, &knots)?;
+    if let Some(weights) = &rational_weights {
+        operator.weigh(weights);
+    }
     let dimension = data.dimension();
     let gradual = options.keep.iter().copied().max().unwrap_or(0).min(options.iterations);
+    if options.convexity.is_some() && rational_weights.is_some() {
+        return Err(Error::Incompatible {
+            what: "keeping the turns of the data",
+            with: "rational weights",
+            why: "it inserts knots, which is done for polynomial curves only",
+        });
+    }
     let mut keeping = match options.convexity {
         Some(convexity) => Some(Keeping::new(convexity, data, parameters.period().is_some())?),
         None => None,
@@ -219,7 +243,10 @@ fn fit_problem(
         Some(keeping) => keeping.knots(knots),
         None => knots,
     };
-    let curve = Curve::new(knots, control_points)?;
+    let curve = match rational_weights {
+        None => Curve::new(knots, control_points)?,
+        Some(weights) => Curve::rational(knots, control_points, layout.expand(weights, 1))?,
+    };
     let norms = solved.norms;
     let (max_deviation, max_deviation_index) = if norms.max <= size.rounding_level() {
         // Down there a foot point is decided by rounding; the residual bounds the distance.
@@ -289,11 +316,10 @@ pub(super) fn spacing_ratio(values: &[f64], period: Option<f64>) -> f64 {
 }
 
 fn unscale(curve: Curve, scale: PowerOfTwoScale) -> Result<Curve, Error> {
-    let knots = curve.knots().clone();
     if scale.is_identity() {
         return Ok(curve);
     }
-    Curve::new(knots, unscaled(curve.control_points().clone(), scale)?)
+    curve.with_control_points(unscaled(curve.control_points().clone(), scale)?)
 }
 
 pub(super) fn parameterization_name(parameterization: &Parameterization) -> &'static str {
@@ -312,6 +338,7 @@ pub(super) fn placement_name(placement: &KnotPlacement) -> &'static str {
         KnotPlacement::NotAKnot => "not-a-knot",
         KnotPlacement::AtData => "at-data",
         KnotPlacement::Uniform => "uniform",
+        KnotPlacement::Bezier => "bezier",
         KnotPlacement::Given(_) => "given",
     }
 }

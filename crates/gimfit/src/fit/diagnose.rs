@@ -4,6 +4,7 @@
 use super::blending::{Collocated, collocate, measure};
 use super::curve::{Located, locate, parameterization_name, placement_name, spacing_ratio};
 use super::prepare::{Prepared, prepare};
+use super::rational::fitted_weights;
 use super::solve::Size;
 use super::{BlendingOptions, CurveOptions};
 use crate::Error;
@@ -66,7 +67,8 @@ pub fn diagnose_curve<'a>(
     points: impl Into<PointsView<'a>>,
     options: &CurveOptions,
 ) -> Result<CurveDiagnosis, Error> {
-    let prepared = prepare(points.into(), options)?;
+    let points = points.into();
+    let prepared = prepare(points, options)?;
     let Prepared { cleaned, extent, parameterization, mut choices, dimension } = prepared;
     let size = Size::of(extent);
     let data = size.scale.apply(&cleaned.coordinates);
@@ -77,7 +79,12 @@ pub fn diagnose_curve<'a>(
     };
     let Located { parameters, knots, placement } =
         locate(view, &parameterization, options, &mut choices).map_err(renumber)?;
-    let operator = interpolation(&parameters, &knots).map_err(renumber)?.operator;
+    let mut operator = interpolation(&parameters, &knots).map_err(renumber)?.operator;
+    let rational_weights = options.rational_weights.as_deref();
+    let weights = fitted_weights(rational_weights, points.len(), view.len(), cleaned.original())?;
+    if let Some(weights) = weights {
+        operator.weigh(&weights);
+    }
     let task = Task {
         operator: &operator,
         data: view,

@@ -13,6 +13,7 @@ mod member;
 mod method;
 mod options;
 mod prepare;
+mod rational;
 mod solve;
 mod surface;
 mod surface_method;

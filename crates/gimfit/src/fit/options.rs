@@ -85,6 +85,9 @@ pub struct CurveOptions {
     /// Whether, and how, the control polygon keeps the turns of the data polygon; planar curves
     /// only.
     pub convexity: Option<Convexity>,
+    /// Positive weights of the control points, one per data point, which make the curve rational;
+    /// only their ratios count. Those of points that are left out go with them.
+    pub rational_weights: Option<Vec<f64>>,
     /// The rule that moves the control points.
     pub method: Method,
     /// Its weight.
@@ -108,6 +111,7 @@ impl Default for CurveOptions {
             parameterization: None,
             knot_placement: None,
             convexity: None,
+            rational_weights: None,
             method: Method::Auto,
             weight: IterationWeight::Auto,
             iterations: 1000,
@@ -246,6 +250,9 @@ pub struct SurfaceOptions {
     pub parameterizations: [Option<Parameterization>; 2],
     /// How knots are placed; `None`: averaged.
     pub knot_placements: [Option<KnotPlacement>; 2],
+    /// Positive weights of the control points, one per data point, row by row, which make the
+    /// surface rational, as in [`CurveOptions::rational_weights`].
+    pub rational_weights: Option<Vec<f64>>,
     /// The rule that moves the control points.
     pub method: Method,
     /// Its weight.
@@ -267,6 +274,7 @@ impl Default for SurfaceOptions {
             closed: [false, false],
             parameterizations: [None, None],
             knot_placements: [None, None],
+            rational_weights: None,
             method: Method::Auto,
             weight: SurfaceWeight::default(),
             per_direction: false,

@@ -1,13 +1,14 @@
 //! Interpolation of a grid of points by a tensor-product B-spline surface.
 
 use super::curve::{finish_parameters, parameterization_name, placement_name};
+use super::rational::{fitted_weights, separate};
 use super::solve::{Size, Solved, Task, norm, solve, unscaled};
 use super::surface_method::{Directions, choose_across, choose_along, choose_both};
 use super::{IterationWeight, KeptFit, SurfaceOptions, SurfaceWeight};
 use crate::Error;
 use crate::collocation::{
-    AcrossCollocation, AlongCollocation, CollocationOperator, Interpolation, NetLayout,
-    TensorCollocation, interpolation,
+    AcrossCollocation, AlongCollocation, CollocationOperator, Interpolation, NetLayout, NetWeights,
+    RationalTensorCollocation, TensorCollocation, interpolation,
 };
 use crate::geometry::Surface;
 use crate::iteration::{HistoryEntry, NoObserver, Observer, Stopping, Termination};
@@ -87,10 +88,28 @@ pub fn fit_surface_observed(
     let dimension = grid.dimension();
     let data = size.scale.apply(&data);
     let view = GridView::new(shape, dimension, &data)?;
-    let u = direction(view, 0, options, &mut choices)?;
-    let v = direction(view, 1, options, &mut choices)?;
+    let mut u = direction(view, 0, options, &mut choices)?;
+    let mut v = direction(view, 1, options, &mut choices)?;
+    let given = grid.shape();
+    let rational_weights = fitted_weights(
+        options.rational_weights.as_deref(),
+        given[0] * given[1],
+        shape[0] * shape[1],
+        |j| j / shape[1] * given[1] + j % shape[1],
+    )?;
+    let parts = rational_weights.as_deref().map(|weights| separate(weights, shape[1]));
+    if let Some(Some([of_rows, of_columns])) = &parts {
+        choices.push("rational weights: a product of weights of rows and of columns".into());
+        u.built.operator.weigh(of_rows);
+        v.built.operator.weigh(of_columns);
+    }
+    let net = rational_weights
+        .clone()
+        .filter(|_| parts == Some(None))
+        .map(|weights| NetWeights::new(&u.built.operator, &v.built.operator, weights));
 
-    let directions = Directions { u: &u.built.operator, v: &v.built.operator };
+    let directions =
+        Directions { u: &u.built.operator, v: &v.built.operator, rational: net.as_ref() };
     let layout = NetLayout { u: u.built.layout, v: v.built.layout, columns: shape[1] };
     let expand = |control| layout.expand(control, dimension);
     let stopping = size.stopping(options.residual, options.iterations, &mut choices)?;
@@ -107,7 +126,10 @@ pub fn fit_surface_observed(
     let knots = [u.knots.clone(), v.knots.clone()];
     let net_shape = knots.each_ref().map(KnotVector::control_points);
     let net = PointGrid::new(net_shape, dimension, expand(solved.control))?;
-    let surface = Surface::new(knots.clone(), net)?;
+    let surface = match rational_weights {
+        None => Surface::new(knots, net)?,
+        Some(weights) => Surface::rational(knots, net, layout.expand(weights, 1))?,
+    };
     let norms = solved.norms;
     let (max_deviation, deviation_index) = if norms.max <= size.rounding_level() {
         // Down there a foot point is decided by rounding; the residual bounds the distance.
@@ -122,7 +144,8 @@ pub fn fit_surface_observed(
         surface
     } else {
         let net = unscaled(surface.control_net().points().clone(), scale)?;
-        Surface::new(knots, PointGrid::new(net_shape, dimension, net.into_coordinates())?)?
+        let net = PointGrid::new(net_shape, dimension, net.into_coordinates())?;
+        surface.with_control_net(net)?
     };
     let report = SurfaceReport {
         points: shape,
@@ -301,9 +324,13 @@ fn at_once(setting: &Setting<'_>, observer: &mut dyn Observer) -> Result<Solved,
         });
     };
     let mut chosen = choose_both(options.method, weight, directions, dimension, gradual)?;
-    let operator = TensorCollocation::new(directions.u, directions.v, dimension);
+    let Directions { u, v, rational } = directions;
+    let operator: Box<dyn CollocationOperator> = match rational {
+        None => Box::new(TensorCollocation::new(u, v, dimension)),
+        Some(net) => Box::new(RationalTensorCollocation::new(u, v, net, dimension)),
+    };
     let data = setting.view.points().coordinates();
-    let task = Task { keep: &options.keep, ..setting.task(&operator, data) };
+    let task = Task { keep: &options.keep, ..setting.task(&*operator, data) };
     solve(&task, &mut chosen, observer)
 }
 
@@ -314,6 +341,14 @@ fn per_direction(
     observer: &mut dyn Observer,
 ) -> Result<(Solved, Stages), Error> {
     let (options, directions) = (setting.options, setting.directions);
+    if directions.rational.is_some() {
+        return Err(Error::Incompatible {
+            what: "these rational weights",
+            with: "one direction after the other",
+            why: "they are no product of weights of rows and weights of columns; run both directions \
+                  at once",
+        });
+    }
     if !options.keep.is_empty() {
         return Err(Error::Incompatible {
             what: "keeping fits of the way",

@@ -3,17 +3,21 @@
 use super::method::{ChosenRule, anderson, check_weight, choose, weighted, whole};
 use super::{IterationWeight, Method};
 use crate::Error;
-use crate::collocation::{CollocationMatrix, largest_jacobi_eigenvalue, smallest_eigenvalue_of};
-use crate::iteration::UpdateRule;
-use crate::iteration::update::{
-    Across, Along, Both, Chebyshev, GaussSeidel, Jacobi, NetPreconditioned, Pia, Staged,
+use crate::collocation::{
+    CollocationMatrix, NetWeights, largest_jacobi_eigenvalue, smallest_eigenvalue_of,
 };
+use crate::iteration::update::{
+    Across, Along, Both, Chebyshev, GaussSeidel, Jacobi, NetPreconditioned, Pia, Rescaled, Staged,
+};
+use crate::iteration::{Step, UpdateRule};
 
 /// The operators of both directions.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Directions<'a> {
     pub(super) u: &'a dyn CollocationMatrix,
     pub(super) v: &'a dyn CollocationMatrix,
+    /// Weights of a rational surface that are no product of weights of the directions.
+    pub(super) rational: Option<&'a NetWeights>,
 }
 
 impl Directions<'_> {
@@ -34,18 +38,42 @@ pub(super) fn choose_both<'a>(
     gradual: usize,
 ) -> Result<ChosenRule<'a>, Error> {
     check_weight(method, weight, directions.points())?;
-    let Directions { u, v } = directions;
+    let Directions { u, v, rational } = directions;
     let columns = v.points();
     let mut choices = Vec::new();
     let mut eigenvalue = None;
     let mut smallest = || -> Result<f64, Error> {
+        if let Some(net) = rational {
+            let inverse = NetPreconditioned::new(u, v, None)?;
+            return smallest_rational_eigenvalue(
+                Rescaled::new(inverse, net),
+                net.sums().len(),
+                columns,
+            );
+        }
         let (u, v) = (smallest_eigenvalue_of(u)?, smallest_eigenvalue_of(v)?);
         let tight = u.estimate <= 1.5 * u.lower && v.estimate <= 1.5 * v.lower;
         eigenvalue = tight.then_some(u.estimate * v.estimate);
         // Eigenvalues of a Kronecker product are products.
         Ok(u.for_weights() * v.for_weights())
     };
-    let banded = |q: Option<usize>| NetPreconditioned::new(u, v, q);
+    // The matrix of a rational surface is scaled from both sides; so are its parts.
+    let scaled = |rule: Box<dyn UpdateRule + 'a>| -> Box<dyn UpdateRule + 'a> {
+        match rational {
+            None => rule,
+            Some(net) => Box::new(Rescaled::new(rule, net)),
+        }
+    };
+    let banded = |q: Option<usize>| -> Result<_, Error> {
+        Ok(scaled(Box::new(NetPreconditioned::new(u, v, q)?)))
+    };
+    if rational.is_some() && *weight == IterationWeight::Lemma2 {
+        return Err(Error::Incompatible {
+            what: "the weight of lemma 2",
+            with: "rational weights that are no product",
+            why: "it is told from the matrices of the directions; use auto or a number",
+        });
+    }
     let (name, rule): (_, Box<dyn UpdateRule + 'a>) = match method {
         Method::Auto if gradual > 0 => {
             choices.push(format!(
@@ -56,7 +84,7 @@ pub(super) fn choose_both<'a>(
         }
         Method::Auto => {
             choices.push(format!("method: {}", whole(u, " in both directions")));
-            ("preconditioned", Box::new(banded(None)?))
+            ("preconditioned", banded(None)?)
         }
         Method::Pia => ("pia", Box::new(Pia)),
         Method::Weighted => ("weighted", weighted(weight, &[u, v], &mut smallest, &mut choices)?),
@@ -75,10 +103,11 @@ pub(super) fn choose_both<'a>(
                 "jacobi: largest eigenvalue about {:.3} in u times {:.3} in v, below 2: it converges",
                 largest[0], largest[1]
             ));
-            ("jacobi", Box::new(Both::new(Jacobi::new(u), Jacobi::new(v), columns)))
+            ("jacobi", scaled(Box::new(Both::new(Jacobi::new(u), Jacobi::new(v), columns))))
         }
         Method::GaussSeidel => {
-            ("gauss-seidel", Box::new(Both::new(GaussSeidel::new(u), GaussSeidel::new(v), columns)))
+            let both = Both::new(GaussSeidel::new(u), GaussSeidel::new(v), columns);
+            ("gauss-seidel", scaled(Box::new(both)))
         }
         Method::Sor => {
             return Err(Error::Incompatible {
@@ -102,11 +131,43 @@ pub(super) fn choose_both<'a>(
                 &mut choices,
             )?),
         ),
-        Method::Preconditioned { half_bandwidth } => {
-            ("preconditioned", Box::new(banded(half_bandwidth)?))
-        }
+        Method::Preconditioned { half_bandwidth } => ("preconditioned", banded(half_bandwidth)?),
     };
     Ok(ChosenRule { rule, name, choices, smallest_eigenvalue: eigenvalue })
+}
+
+/// A safe lower estimate of the smallest eigenvalue of a matrix whose inverse is at hand, with signs
+/// like a chessboard as inverses of totally positive matrices have: powers of the inverse without its
+/// signs, between whose bounds the largest eigenvalue lies (Collatz 1942).
+fn smallest_rational_eigenvalue(
+    mut inverse: impl UpdateRule,
+    count: usize,
+    columns: usize,
+) -> Result<f64, Error> {
+    const MOST: usize = 200;
+    let sign = |k: usize| if (k / columns + k % columns).is_multiple_of(2) { 1.0 } else { -1.0 };
+    let still = vec![0.0; count];
+    let mut x = vec![1.0; count];
+    let mut y = x.clone();
+    let mut bounds = (0.0, f64::INFINITY);
+    for iteration in 0..MOST {
+        y.iter_mut().zip(&x).enumerate().for_each(|(k, (y, x))| *y = sign(k) * x);
+        inverse.adjust(Step { iteration, control: &still, dimension: 1 }, &mut y);
+        y.iter_mut().enumerate().for_each(|(k, y)| *y = (sign(k) * *y).abs());
+        let ratios = y.iter().zip(&x).map(|(y, x)| y / x);
+        bounds = ratios.fold((f64::INFINITY, 0.0), |(a, b), r| (r.min(a), f64::max(b, r)));
+        let largest = y.iter().copied().fold(0.0, f64::max);
+        if !(largest > 0.0 && largest.is_finite()) {
+            return Err(Error::LeavesDoubles);
+        }
+        // No entry vanishes, so that no ratio does.
+        x.iter_mut().zip(&y).for_each(|(x, y)| *x = (y / largest).max(1e-12));
+        if bounds.1 <= 1.01 * bounds.0 {
+            break;
+        }
+    }
+    let (lower, middle) = (1.0 / bounds.1, 2.0 / (bounds.0 + bounds.1));
+    Ok(lower.max(0.5 * middle).min(1.0))
 }
 
 /// Prepares a rule that takes each column of the grid for a curve.

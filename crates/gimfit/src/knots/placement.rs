@@ -23,6 +23,8 @@ pub enum KnotPlacement {
     /// Knots at equal steps; for a closed curve of even degree half a step off the first parameter.
     /// Fits only parameters that are about equally spaced.
     Uniform,
+    /// None inside: a Bezier curve, whose degree is one less than the number of points. Open curves.
+    Bezier,
     /// The caller's full knot vector, `n + p + 1` values; for a closed curve of m points
     /// `m + 2 p + 1` values that repeat with the period.
     Given(Vec<f64>),
@@ -74,6 +76,15 @@ fn open(degree: usize, t: &[f64], placement: &KnotPlacement) -> Result<KnotVecto
             let spans = (count - degree) as f64;
             let (first, length) = (t[0], t[count - 1] - t[0]);
             (1..count - degree).map(|i| first + length * (i as f64 / spans)).collect()
+        }
+        KnotPlacement::Bezier if count == degree + 1 => Vec::new(),
+        KnotPlacement::Bezier => {
+            return Err(Error::WrongCount {
+                what: "points",
+                given: count,
+                expected: degree + 1,
+                why: "degree + 1 for a Bezier curve; choose the degree points - 1, or other knots",
+            });
         }
         KnotPlacement::Given(knots) => return given_open(degree, t, knots),
     };
@@ -131,6 +142,13 @@ fn periodic(
             let offset = if degree % 2 == 1 { 0.0 } else { 0.5 * step };
             let first = parameters.origin() - offset;
             (0..count).map(|i| first + step * i as f64).collect()
+        }
+        KnotPlacement::Bezier => {
+            return Err(Error::Incompatible {
+                what: "bezier knots",
+                with: "a closed curve",
+                why: "a Bezier curve is one open piece",
+            });
         }
         KnotPlacement::NotAKnot => {
             return Err(Error::Incompatible {

@@ -27,6 +27,11 @@ pub(crate) struct Cleaned<'a> {
 }
 
 impl Cleaned<'_> {
+    /// From the place of a point that is left to its place among all.
+    pub(crate) fn original(&self) -> impl Fn(usize) -> usize + '_ {
+        |j| self.kept.as_ref().map_or(j, |kept| kept[j])
+    }
+
     /// Keeps the first `count` points.
     pub(crate) fn truncate(&mut self, count: usize, dimension: usize) {
         match &mut self.coordinates {

@@ -98,7 +98,7 @@ pub(super) fn least_of_convex(h: &[f64]) -> f64 {
             }
         } else {
             s = 0.5 * (least + most);
-            if value == 0.0 || most - least <= 1e-16 {
+            if most - least <= 1e-16 {
                 break;
             }
         }

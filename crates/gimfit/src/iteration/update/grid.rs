@@ -5,6 +5,7 @@
 //! eigenvalues in (0, 1] converges in both (Lin, Wang and Dong 2004, section 2.2, for PIA).
 
 use super::{Step, UpdateRule};
+use crate::collocation::NetWeights;
 
 /// A rule that takes each column of a grid for a curve: the rows are its points, of `columns` times
 /// the dimension.
@@ -99,5 +100,42 @@ impl<U: UpdateRule, V: UpdateRule> UpdateRule for Both<U, V> {
     fn reset(&mut self) {
         self.across.reset();
         self.along.reset();
+    }
+}
+
+/// A rule made for `A_u (x) A_v`, carried over to the rational `D^-1 (A_u (x) A_v) W`: difference
+/// vectors are multiplied by the sums D before it, and divided by the weights W behind it. What it
+/// does to eigenvalues does not change with the weights.
+#[derive(Debug, Clone)]
+pub struct Rescaled<'a, R> {
+    rule: R,
+    net: &'a NetWeights,
+}
+
+impl<'a, R: UpdateRule> Rescaled<'a, R> {
+    /// For a net with these weights.
+    #[must_use]
+    pub fn new(rule: R, net: &'a NetWeights) -> Self {
+        Self { rule, net }
+    }
+}
+
+impl<R: UpdateRule> UpdateRule for Rescaled<'_, R> {
+    fn adjust(&mut self, step: Step<'_>, vectors: &mut [f64]) {
+        for (vector, sum) in vectors.chunks_exact_mut(step.dimension).zip(self.net.sums()) {
+            vector.iter_mut().for_each(|x| *x *= sum);
+        }
+        self.rule.adjust(step, vectors);
+        for (vector, w) in vectors.chunks_exact_mut(step.dimension).zip(self.net.weights()) {
+            vector.iter_mut().for_each(|x| *x /= w);
+        }
+    }
+
+    fn is_stuck(&self) -> bool {
+        self.rule.is_stuck()
+    }
+
+    fn reset(&mut self) {
+        self.rule.reset();
     }
 }

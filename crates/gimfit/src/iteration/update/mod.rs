@@ -20,7 +20,7 @@ pub use chebyshev::Chebyshev;
 pub use closest::ClosestConvex;
 pub use convex::ConvexityPreserving;
 pub use gauss_seidel::{GaussSeidel, Sor};
-pub use grid::{Across, Along, Both};
+pub use grid::{Across, Along, Both, Rescaled};
 pub use jacobi::Jacobi;
 pub use net_preconditioned::NetPreconditioned;
 pub use pia::Pia;
