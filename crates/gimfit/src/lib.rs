@@ -75,7 +75,8 @@ pub use knots::{KnotPlacement, KnotVector};
 pub use parameters::Parameterization;
 pub use points::{Duplicates, GridView, PointGrid, Points, PointsView};
 pub use report::{
-    ApproximationReport, CurveReport, RunReport, ShapeReport, SurfaceReport, TriangleReport,
+    ApproximationReport, CurveReport, LocalReport, RunReport, ShapeReport, SurfaceReport,
+    TriangleReport,
 };
 
 /// The Rust examples of the README and of the documentation pages, run as tests.
@@ -89,6 +90,7 @@ mod pages {
     pages! {
         Readme: "README.md",
         Contributing: "CONTRIBUTING.md",
+        Adaptive: "docs/methods/adaptive.md",
         Anderson: "docs/methods/anderson.md",
         Approximation: "docs/methods/approximation.md",
         Auto: "docs/methods/auto.md",
@@ -101,6 +103,7 @@ mod pages {
         GaussSeidel: "docs/methods/gauss-seidel.md",
         Jacobi: "docs/methods/jacobi.md",
         Knots: "docs/methods/knots.md",
+        Local: "docs/methods/local.md",
         Nurbs: "docs/methods/nurbs.md",
         Parameters: "docs/methods/parameters.md",
         Pia: "docs/methods/pia.md",

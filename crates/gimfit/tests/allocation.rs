@@ -5,8 +5,8 @@
 use gimfit::basis::WangBall;
 use gimfit::collocation::{DenseCollocation, interpolation};
 use gimfit::iteration::update::{
-    Anderson, Chebyshev, ClosestConvex, ConvexityPreserving, GaussSeidel, Jacobi, PerPoint, Pia,
-    Preconditioned, Sor, Staged, Weighted,
+    Adaptive, AdaptiveRows, Anderson, Chebyshev, ClosestConvex, ConvexityPreserving, GaussSeidel,
+    Jacobi, Local, PerPoint, Pia, Preconditioned, Sor, Staged, Weighted,
 };
 use gimfit::iteration::{IterationState, UpdateRule};
 use gimfit::knots::place_knots;
@@ -47,7 +47,7 @@ fn steps_allocate_nothing() {
         let knots = place_knots(3, &t, &KnotPlacement::Averaged).unwrap();
         let operator = interpolation(&t, &knots).unwrap().operator;
         let whole = || Preconditioned::new(&operator, None).unwrap();
-        let rules: [Box<dyn UpdateRule + '_>; 11] = [
+        let rules: [Box<dyn UpdateRule + '_>; 13] = [
             Box::new(Pia),
             Box::new(Weighted::new(1.2)),
             Box::new(PerPoint::new(vec![1.1; COUNT])),
@@ -59,6 +59,8 @@ fn steps_allocate_nothing() {
             Box::new(Anderson::new(2, 3 * COUNT)),
             Box::new(whole()),
             Box::new(Staged::new(Pia, 2, whole())),
+            Box::new(Local::new(Pia, (100..200).collect(), 3)),
+            Box::new(Adaptive::new(AdaptiveRows::Curve(&operator), 1e-3)),
         ];
         for mut rule in rules {
             let mut state = IterationState::begin(&operator, &data, 3);

@@ -58,6 +58,7 @@ impl Plan {
             convexity: convexity(arguments)?,
             method,
             weight,
+            local: None,
             iterations: arguments.iteration.iterations,
             residual: arguments.iteration.residual,
             keep: arguments.iteration.keep.clone(),

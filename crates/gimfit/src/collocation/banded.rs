@@ -141,3 +141,25 @@ impl CollocationMatrix for BandedCollocation {
         self.first.iter().all(|&first| first >= 0 && first as usize + self.width <= columns)
     }
 }
+
+/// Norms of the `count` difference vectors of an array that `counted` names.
+pub(super) fn norms_of(
+    vectors: &[f64],
+    dimension: usize,
+    count: usize,
+    counted: impl Fn(usize) -> bool,
+) -> ResidualNorms {
+    let (mut largest, mut max_index, mut sum) = (-1.0, 0, 0.0);
+    for (j, vector) in vectors.chunks_exact(dimension).enumerate() {
+        if !counted(j) {
+            continue;
+        }
+        let square: f64 = vector.iter().map(|x| x * x).sum();
+        sum += square;
+        if square > largest {
+            (largest, max_index) = (square, j);
+        }
+    }
+    let max = if f64::is_finite(sum) { f64::sqrt(largest.max(0.0)) } else { f64::NAN };
+    ResidualNorms { max, max_index, rms: f64::sqrt(sum / count.max(1) as f64) }
+}

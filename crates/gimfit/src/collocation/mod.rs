@@ -12,6 +12,7 @@ mod grid;
 pub(crate) mod kernel;
 mod layout;
 mod least_squares;
+mod local;
 mod rational_net;
 mod spectrum;
 
@@ -23,6 +24,7 @@ pub use factor::Factorization;
 pub use grid::{AcrossCollocation, AlongCollocation, TensorCollocation};
 pub use layout::{ControlLayout, NetLayout};
 pub(crate) use least_squares::DataRows;
+pub use local::LocalCollocation;
 pub use rational_net::{NetWeights, RationalTensorCollocation};
 pub use spectrum::{
     Eigenvalue, EigenvalueBounds, all_eigenvalues, best_weight, eigenvalues, gauss_seidel_rate,

@@ -1,13 +1,15 @@
 //! Interpolation of ordered points by a B-spline curve.
 
 use super::convex::{Interpolating, Keeping};
-use super::method::choose;
+use super::local::{Chosen, positions_fitted};
 use super::prepare::{Prepared, prepare};
 use super::rational::fitted_weights;
 use super::solve::{Size, Task, norm, solve, unscaled};
-use super::{CurveOptions, KeptFit};
+use super::{CurveOptions, KeptFit, local};
 use crate::Error;
-use crate::collocation::{ControlLayout, Interpolation, interpolation, wrap};
+use crate::collocation::{
+    CollocationOperator, ControlLayout, Interpolation, LocalCollocation, interpolation, wrap,
+};
 use crate::geometry::Curve;
 use crate::iteration::{NoObserver, Observer};
 use crate::knots::{KnotPlacement, KnotVector, place_knots};
@@ -96,8 +98,17 @@ pub fn fit_curve_observed<'a>(
         view.len(),
         cleaned.original(),
     )?;
+    let local = match &options.local {
+        Some(list) => Some(positions_fitted(list, points, cleaned.kept.as_deref(), view.len())?),
+        None => None,
+    };
     let problem = Problem { data: view, size, parameters, knots, rational_weights };
-    let mut fit = fit_problem(problem, options, observer).map_err(renumber)?;
+    let mut fit = if local.is_some() {
+        fit_problem(problem, &CurveOptions { local, ..options.clone() }, observer)
+    } else {
+        fit_problem(problem, options, observer)
+    }
+    .map_err(renumber)?;
     fit.report.parameterization = parameterization_name(&parameterization);
     fit.report.knot_placement = placement_name(&placement);
     choices.append(&mut fit.report.run.choices);
@@ -203,19 +214,23 @@ fn fit_problem(
             why: "it inserts knots, which is done for polynomial curves only",
         });
     }
+    let mut notes = Vec::new();
+    let stopping = size.stopping(options.residual, options.iterations, &mut notes)?;
     let mut keeping = match options.convexity {
         Some(convexity) => Some(Keeping::new(convexity, data, parameters.period().is_some())?),
         None => None,
     };
+    let local = Chosen::of(options, &operator)?;
     let mut chosen = match &mut keeping {
         Some(keeping) => {
             let threshold = size.threshold(options.convexity)?;
             let problem = Interpolating { data, parameters: &parameters, knots: &knots, layout };
             keeping.choose(&problem, options, &operator, threshold, gradual)?
         }
-        None => choose(options.method, &options.weight, &operator, dimension, gradual)?,
+        None => local::choose(options, local.as_ref(), &operator, dimension, gradual, stopping)?,
     };
-    let stopping = size.stopping(options.residual, options.iterations, &mut chosen.choices)?;
+    chosen.choices.append(&mut notes);
+    let seen = local.as_ref().map(|local| LocalCollocation::new(&operator, &local.points));
     let expand = |control| {
         let stored = layout.expand(control, dimension);
         match &keeping {
@@ -224,7 +239,7 @@ fn fit_problem(
         }
     };
     let task = Task {
-        operator: &operator,
+        operator: seen.as_ref().map_or(&operator as &dyn CollocationOperator, |seen| seen),
         data: data.coordinates(),
         dimension,
         size: &size,
@@ -232,8 +247,13 @@ fn fit_problem(
         keep: &options.keep,
         expand: &expand,
     };
-    let solved = solve(&task, &mut chosen, observer)?;
+    let mut solved = solve(&task, &mut chosen, observer)?;
+    if let (Some(seen), Some(local)) = (&seen, &local) {
+        local.look_outside(seen, data.coordinates(), dimension, scale, &mut solved);
+    }
     drop(chosen);
+    drop(seen);
+    drop(local);
     drop(operator);
 
     let (parameters, spacing_ratio) = finish_parameters(parameters, &knots, layout);
@@ -248,13 +268,14 @@ fn fit_problem(
         Some(weights) => Curve::rational(knots, control_points, layout.expand(weights, 1))?,
     };
     let norms = solved.norms;
-    let (max_deviation, max_deviation_index) = if norms.max <= size.rounding_level() {
-        // Down there a foot point is decided by rounding; the residual bounds the distance.
-        (norms.max, norms.max_index)
-    } else {
-        let residuals: Vec<f64> = solved.vectors.chunks_exact(dimension).map(norm).collect();
-        largest_deviation(&curve, data, &parameters, &residuals)?
-    };
+    let (max_deviation, max_deviation_index) =
+        if solved.run.local.is_none() && norms.max <= size.rounding_level() {
+            // Down there a foot point is decided by rounding; the residual bounds the distance.
+            (norms.max, norms.max_index)
+        } else {
+            let residuals: Vec<f64> = solved.vectors.chunks_exact(dimension).map(norm).collect();
+            largest_deviation(&curve, data, &parameters, &residuals)?
+        };
     let curve = unscale(curve, scale)?;
     let report = CurveReport {
         points: data.len(),

@@ -9,7 +9,8 @@ use crate::collocation::{
 use crate::diagnosis::dominance;
 use crate::iteration::UpdateRule;
 use crate::iteration::update::{
-    Anderson, Chebyshev, GaussSeidel, Jacobi, PerPoint, Pia, Preconditioned, Sor, Staged, Weighted,
+    Adaptive, AdaptiveRows, Anderson, Chebyshev, GaussSeidel, Jacobi, PerPoint, Pia,
+    Preconditioned, Sor, Staged, Weighted,
 };
 
 /// A rule ready to run.
@@ -53,6 +54,21 @@ pub(super) fn choose<'a>(
             }
         }
         Method::Pia => ("pia", Box::new(Pia)),
+        Method::Local => {
+            return Err(Error::Incompatible {
+                what: "local",
+                with: "this recipe",
+                why: "points are chosen for curves of B-splines only; use another method",
+            });
+        }
+        Method::Adaptive => {
+            return Err(Error::Incompatible {
+                what: "adaptive",
+                with: "this recipe",
+                why: "it is for curves of B-splines, and for grids in both directions at once; use \
+                      another method",
+            });
+        }
         Method::Weighted => {
             ("weighted", weighted(weight, &[operator], &mut smallest, &mut choices)?)
         }
@@ -89,6 +105,25 @@ pub(super) fn choose<'a>(
         }
     };
     Ok(ChosenRule { rule, name, choices, smallest_eigenvalue: eigenvalue })
+}
+
+/// The rule of adaptive PIA, which needs to know when a point is done.
+pub(super) fn choose_adaptive<'a>(
+    rows: AdaptiveRows<'a>,
+    weight: &IterationWeight,
+    points: usize,
+    residual: f64,
+) -> Result<ChosenRule<'a>, Error> {
+    check_weight(Method::Adaptive, weight, points)?;
+    if residual <= 0.0 {
+        return Err(Error::Incompatible {
+            what: "adaptive",
+            with: "a residual of 0",
+            why: "points are frozen once they are within the residual; give one above 0",
+        });
+    }
+    let rule = Box::new(Adaptive::new(rows, residual));
+    Ok(ChosenRule { rule, name: "adaptive", choices: Vec::new(), smallest_eigenvalue: None })
 }
 
 /// The rule of weighted PIA on the Kronecker product of operators; `smallest` finds the smallest

@@ -9,6 +9,7 @@ mod diagnose;
 mod diagnose_surface;
 mod intervals;
 mod keep;
+mod local;
 mod member;
 mod method;
 mod options;

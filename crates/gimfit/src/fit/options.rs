@@ -35,6 +35,10 @@ pub enum Method {
         /// Entries farther from the diagonal are added to it; `None` keeps all.
         half_bandwidth: Option<usize>,
     },
+    /// Local PIA (Lin 2010): plain PIA of the points that the options choose.
+    Local,
+    /// Adaptive PIA (Lin 2012): plain PIA that freezes points once they are met.
+    Adaptive,
 }
 
 /// Weight of the difference vectors, for the methods that have one.
@@ -92,6 +96,11 @@ pub struct CurveOptions {
     pub method: Method,
     /// Its weight.
     pub weight: IterationWeight,
+    /// Positions, in the array given, of the points whose control points move, in any order; `None`:
+    /// all. The method then runs on the matrix of these points, and residual and stopping count them
+    /// alone. A repetition that is dropped stands for the point it repeats. Not with
+    /// [`CurveOptions::convexity`].
+    pub local: Option<Vec<usize>>,
     /// Most steps.
     pub iterations: usize,
     /// Largest residual to be reached, in the unit of the data. `None`: 1e-12 of the extent, or
@@ -114,6 +123,7 @@ impl Default for CurveOptions {
             rational_weights: None,
             method: Method::Auto,
             weight: IterationWeight::Auto,
+            local: None,
             iterations: 1000,
             residual: None,
             duplicates: Duplicates::Error,

@@ -171,6 +171,8 @@ pub(super) fn solve(
         max_residual: scale.undo(norms.max),
         rms_residual: scale.undo(norms.rms),
         smallest_eigenvalue: chosen.smallest_eigenvalue,
+        updates: chosen.rule.updates(),
+        local: None,
         history,
     };
     Ok(Solved { control, vectors, norms, run, sequence })

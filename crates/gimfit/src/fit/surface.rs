@@ -1,16 +1,18 @@
 //! Interpolation of a grid of points by a tensor-product B-spline surface.
 
 use super::curve::{finish_parameters, parameterization_name, placement_name};
+use super::method::choose_adaptive;
 use super::rational::{fitted_weights, separate};
 use super::solve::{Size, Solved, Task, norm, solve, unscaled};
 use super::surface_method::{Directions, choose_across, choose_along, choose_both};
-use super::{IterationWeight, KeptFit, SurfaceOptions, SurfaceWeight};
+use super::{IterationWeight, KeptFit, Method, SurfaceOptions, SurfaceWeight};
 use crate::Error;
 use crate::collocation::{
     AcrossCollocation, AlongCollocation, CollocationOperator, Interpolation, NetLayout, NetWeights,
     RationalTensorCollocation, TensorCollocation, interpolation,
 };
 use crate::geometry::Surface;
+use crate::iteration::update::AdaptiveRows;
 use crate::iteration::{HistoryEntry, NoObserver, Observer, Stopping, Termination};
 use crate::knots::{KnotPlacement, KnotVector, place_knots};
 use crate::parameters::{Parameterization, Parameters, assign_grid_parameters};
@@ -323,8 +325,20 @@ fn at_once(setting: &Setting<'_>, observer: &mut dyn Observer) -> Result<Solved,
             why: "a net that moves as a whole has one weight; run one direction after the other",
         });
     };
-    let mut chosen = choose_both(options.method, weight, directions, dimension, gradual)?;
     let Directions { u, v, rational } = directions;
+    let mut chosen = if options.method == Method::Adaptive {
+        if rational.is_some() {
+            return Err(Error::Incompatible {
+                what: "adaptive",
+                with: "rational weights of a net",
+                why: "its bound is that of polynomial surfaces; use another method",
+            });
+        }
+        let rows = AdaptiveRows::Grid([u, v]);
+        choose_adaptive(rows, weight, setting.view.points().len(), setting.stopping.residual)?
+    } else {
+        choose_both(options.method, weight, directions, dimension, gradual)?
+    };
     let operator: Box<dyn CollocationOperator> = match rational {
         None => Box::new(TensorCollocation::new(u, v, dimension)),
         Some(net) => Box::new(RationalTensorCollocation::new(u, v, net, dimension)),
@@ -413,6 +427,8 @@ fn per_direction(
     }
     let eigenvalues = first.smallest_eigenvalue.zip(second_run.smallest_eigenvalue);
     let run = RunReport {
+        updates: None,
+        local: None,
         choices,
         method: second_run.method,
         extent: second_run.extent,

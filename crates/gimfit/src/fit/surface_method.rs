@@ -87,6 +87,20 @@ pub(super) fn choose_both<'a>(
             ("preconditioned", banded(None)?)
         }
         Method::Pia => ("pia", Box::new(Pia)),
+        Method::Local => {
+            return Err(Error::Incompatible {
+                what: "local",
+                with: "a grid of points",
+                why: "points are chosen for curves of B-splines only; use another method",
+            });
+        }
+        Method::Adaptive => {
+            return Err(Error::Incompatible {
+                what: "adaptive",
+                with: "no residual",
+                why: "it needs the residual at which a point is done; use another method",
+            });
+        }
         Method::Weighted => ("weighted", weighted(weight, &[u, v], &mut smallest, &mut choices)?),
         Method::Jacobi => {
             let largest = [u, v].map(largest_jacobi_eigenvalue);

@@ -13,4 +13,4 @@ pub use observer::{Flow, NoObserver, Observer, Snapshot};
 pub use state::{IterationState, ROUNDING};
 pub use stopping::{Stopping, Termination};
 pub use trace::{HistoryEntry, MAX_ENTRIES, Trace};
-pub use update::{Step, UpdateRule};
+pub use update::{Step, UpdateCounts, UpdateRule};

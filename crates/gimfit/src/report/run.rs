@@ -1,6 +1,6 @@
 //! The account of a run, whatever geometry it moved.
 
-use crate::iteration::{HistoryEntry, Termination};
+use crate::iteration::{HistoryEntry, Termination, UpdateCounts};
 
 /// The account of a run. Lengths are in the unit of the data.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,14 +20,29 @@ pub struct RunReport {
     pub residual_target: f64,
     /// Diagonal of the bounding box of the data.
     pub extent: f64,
-    /// Largest norm of a difference vector.
+    /// Largest norm of a difference vector: of the points iterated, which are all but for local PIA.
     pub max_residual: f64,
-    /// Root mean square of the norms.
+    /// Root mean square of the norms, of the same points.
     pub rms_residual: f64,
     /// Smallest eigenvalue of the collocation operator, where the method asked for it.
     pub smallest_eigenvalue: Option<f64>,
+    /// Moves of control points made and spared, where the method spares any.
+    pub updates: Option<UpdateCounts>,
+    /// What local PIA left aside; `None` where all points took part.
+    pub local: Option<LocalReport>,
     /// Residuals step by step.
     pub history: Vec<HistoryEntry>,
+}
+
+/// The account of the points that local PIA left aside.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LocalReport {
+    /// Points that took part.
+    pub points: usize,
+    /// Largest norm of a difference vector of all others.
+    pub outside_max_residual: f64,
+    /// The point where it is met, among those fitted.
+    pub outside_max_residual_index: usize,
 }
 
 impl RunReport {

@@ -228,6 +228,8 @@ pub fn approximate_curve_observed<'a>(
         rms_residual: account.rms_distance,
     });
     let run = RunReport {
+        updates: None,
+        local: None,
         method: "approximation",
         choices,
         iterations: rounds,

@@ -2,6 +2,7 @@
 
 use super::Termination;
 
+mod adaptive;
 mod anderson;
 mod chebyshev;
 mod closest;
@@ -9,12 +10,14 @@ mod convex;
 mod gauss_seidel;
 mod grid;
 mod jacobi;
+mod local;
 mod net_preconditioned;
 mod pia;
 mod preconditioned;
 mod staged;
 mod weighted;
 
+pub use adaptive::{Adaptive, AdaptiveRows};
 pub use anderson::Anderson;
 pub use chebyshev::Chebyshev;
 pub use closest::ClosestConvex;
@@ -22,6 +25,7 @@ pub use convex::ConvexityPreserving;
 pub use gauss_seidel::{GaussSeidel, Sor};
 pub use grid::{Across, Along, Both, Rescaled};
 pub use jacobi::Jacobi;
+pub use local::Local;
 pub use net_preconditioned::NetPreconditioned;
 pub use pia::Pia;
 pub use preconditioned::Preconditioned;
@@ -37,6 +41,15 @@ pub struct Step<'a> {
     pub control: &'a [f64],
     /// Coordinates per point.
     pub dimension: usize,
+}
+
+/// Moves of single control points, for rules that do not move all of them in every step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct UpdateCounts {
+    /// Moves made.
+    pub done: usize,
+    /// Moves that plain PIA would have made on top in as many steps.
+    pub saved: usize,
 }
 
 /// Turns difference vectors, one per data point, into adjusting vectors, one per control point.
@@ -64,6 +77,11 @@ pub trait UpdateRule: std::fmt::Debug {
         false
     }
 
+    /// Moves made and spared since the start, where the rule spares any.
+    fn updates(&self) -> Option<UpdateCounts> {
+        None
+    }
+
     /// Forgets the steps taken, before a run is repeated.
     fn reset(&mut self) {}
 }
@@ -83,6 +101,10 @@ impl<R: UpdateRule + ?Sized> UpdateRule for Box<R> {
 
     fn ends_itself(&self) -> bool {
         (**self).ends_itself()
+    }
+
+    fn updates(&self) -> Option<UpdateCounts> {
+        (**self).updates()
     }
 
     fn reset(&mut self) {

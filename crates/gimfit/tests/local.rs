@@ -1,0 +1,220 @@
+//! Laws of local and adaptive PIA.
+
+#![allow(clippy::unwrap_used, clippy::panic)] // A test that cannot go on has failed.
+
+use gimfit::collocation::{CollocationMatrix, interpolation, smallest_eigenvalue};
+use gimfit::knots::place_knots;
+use gimfit::parameters::assign_parameters;
+use gimfit::{
+    Convexity, CurveOptions, Duplicates, GridView, KnotPlacement, Method, Parameterization, Points,
+    PointsView, SurfaceOptions, fit_curve, fit_surface,
+};
+use gimfit_testkit::generate::{Random, random_walk};
+use gimfit_testkit::{dense, textbook};
+
+fn subset(random: &mut Random, count: usize) -> Vec<usize> {
+    let mut points: Vec<usize> = (0..count).filter(|_| random.unit() < 0.4).collect();
+    points.push(count / 2);
+    points
+}
+
+#[test]
+fn the_local_limit_interpolates_the_chosen_points_and_moves_no_other() {
+    let mut random = Random::new(5);
+    for (seed, degree) in [(1, 2), (2, 3), (3, 3), (4, 4)] {
+        let rows = random_walk(seed, 30, 2);
+        let data = Points::new(2, rows.concat()).unwrap();
+        let chosen = subset(&mut random, 30);
+        for method in [Method::Local, Method::Weighted, Method::GaussSeidel, Method::Auto] {
+            let options = CurveOptions {
+                degree,
+                method,
+                local: Some(chosen.clone()),
+                iterations: 50_000,
+                ..Default::default()
+            };
+            let fit = fit_curve(&data, &options).unwrap();
+            assert!(fit.report.converged(), "{method:?} {degree}");
+            let control: dense::Rows =
+                fit.curve.control_points().iter().map(<[f64]>::to_vec).collect();
+            let knots = fit.curve.knots().values();
+            let mut worst = 0.0_f64;
+            for j in 0..30 {
+                let at = textbook::curve_point(knots, degree, &control, fit.parameters[j]);
+                let gap = (at[0] - rows[j][0]).hypot(at[1] - rows[j][1]);
+                if chosen.contains(&j) {
+                    assert!(gap <= 1e-10, "{method:?} {degree} point {j}: {gap:e}");
+                } else {
+                    worst = worst.max(gap);
+                    assert_eq!(control[j], rows[j]);
+                }
+            }
+            let local = fit.report.run.local.unwrap();
+            assert!((local.outside_max_residual - worst).abs() <= 1e-12 * worst.max(1.0));
+        }
+    }
+}
+
+#[test]
+fn a_part_of_the_matrix_has_no_smaller_eigenvalue() {
+    let mut random = Random::new(9);
+    let data = Points::new(2, random_walk(7, 25, 2).concat()).unwrap();
+    let t = assign_parameters(data.as_view(), false, &Parameterization::Chord).unwrap();
+    for degree in [2, 3, 5] {
+        let knots = place_knots(degree, &t, &KnotPlacement::Averaged).unwrap();
+        let whole = interpolation(&t, &knots).unwrap().operator;
+        let least = smallest_eigenvalue(&whole.factor(None).unwrap());
+        for _ in 0..20 {
+            let chosen = subset(&mut random, 25);
+            let part = smallest_eigenvalue(&whole.restricted(&chosen).factor(None).unwrap());
+            assert!(part.upper >= least.lower * (1.0 - 1e-9), "{degree}: {part:?} {least:?}");
+        }
+    }
+}
+
+#[test]
+fn adaptive_pia_ends_with_every_residual_met_and_spares_moves() {
+    for degree in 1..=5 {
+        for closed in [false, true] {
+            let data = Points::new(2, random_walk(3, 60, 2).concat()).unwrap();
+            let options = CurveOptions {
+                degree,
+                closed,
+                method: Method::Adaptive,
+                residual: Some(1e-4),
+                iterations: 20_000,
+                ..Default::default()
+            };
+            let fit = fit_curve(&data, &options).unwrap();
+            assert!(fit.report.converged(), "{degree} {closed} {}", fit.report.run.termination);
+            assert!(fit.residuals().iter().all(|r| *r <= 1e-4));
+            let counts = fit.report.run.updates.unwrap();
+            assert_eq!(counts.done + counts.saved, 60 * fit.report.run.iterations);
+            assert!(degree == 1 || counts.saved > 0, "{degree} {closed} {counts:?}");
+        }
+    }
+}
+
+fn waves(rows: usize, columns: usize) -> Vec<f64> {
+    let cell = |k: usize| {
+        let (x, y) = ((k / columns) as f64, (k % columns) as f64);
+        [x, y + 0.2 * (0.5 * x * y).sin(), (0.7 * x).sin() * (0.9 * y).cos()]
+    };
+    (0..rows * columns).flat_map(cell).collect()
+}
+
+#[test]
+fn adaptive_pia_of_grids_ends_with_every_residual_met_and_spares_moves() {
+    let points = waves(12, 9);
+    let grid = GridView::new([12, 9], 3, &points).unwrap();
+    for degrees in [[1, 3], [3, 3], [2, 5]] {
+        let options = SurfaceOptions {
+            degrees,
+            method: Method::Adaptive,
+            per_direction: false,
+            residual: Some(1e-5),
+            iterations: 20_000,
+            ..Default::default()
+        };
+        let fit = fit_surface(grid, &options).unwrap();
+        assert!(fit.report.converged(), "{degrees:?} {}", fit.report.run.termination);
+        let plain = SurfaceOptions { method: Method::Pia, residual: Some(1e-9), ..options };
+        let limit = fit_surface(grid, &plain).unwrap();
+        let knots = fit.surface.knots().each_ref().map(|knots| knots.values().to_vec());
+        assert_eq!(knots, limit.surface.knots().each_ref().map(|knots| knots.values().to_vec()));
+        assert!(fit.residuals().iter().all(|r| *r <= 1e-5));
+        let counts = fit.report.run.updates.unwrap();
+        assert_eq!(counts.done + counts.saved, 108 * fit.report.run.iterations);
+        assert!(counts.saved > 0, "{degrees:?} {counts:?}");
+    }
+}
+
+#[test]
+fn what_cannot_be_done_is_refused_with_the_reason() {
+    let points = waves(6, 6);
+    let grid = GridView::new([6, 6], 3, &points).unwrap();
+    for (method, per_direction) in
+        [(Method::Local, false), (Method::Local, true), (Method::Adaptive, true)]
+    {
+        let options = SurfaceOptions { method, per_direction, ..Default::default() };
+        let error = fit_surface(grid, &options).unwrap_err().to_string();
+        assert!(error.contains("cannot be used with"), "{error}");
+    }
+    let data = Points::new(2, random_walk(1, 12, 2).concat()).unwrap();
+    let refused = |options: CurveOptions| fit_curve(&data, &options).unwrap_err().to_string();
+    let with = |local: Option<Vec<usize>>| CurveOptions { local, ..Default::default() };
+    assert!(
+        refused(CurveOptions { method: Method::Local, ..with(None) }).contains("name the points")
+    );
+    assert!(refused(with(Some(vec![]))).contains("at least one"));
+    assert!(refused(with(Some(vec![3, 12]))).contains("12"));
+    let convex = CurveOptions { convexity: Some(Convexity::Closest), ..with(Some(vec![3])) };
+    assert!(refused(convex).contains("convexity"));
+    let adaptive =
+        CurveOptions { method: Method::Adaptive, residual: Some(0.0), ..Default::default() };
+    assert!(refused(adaptive).contains("above 0"));
+}
+
+/// The same points, one of them repeated, and a closed one with its first point again at the end.
+#[test]
+fn positions_are_those_of_the_array_given() {
+    let rows = random_walk(6, 12, 2);
+    let fit = |rows: &[Vec<f64>], local: Vec<usize>, closed| {
+        let options = CurveOptions {
+            local: Some(local),
+            closed,
+            duplicates: Duplicates::Drop,
+            ..Default::default()
+        };
+        let fit = fit_curve(&Points::new(2, rows.concat()).unwrap(), &options).unwrap();
+        fit.curve.control_points().clone()
+    };
+    let mut repeated = rows.clone();
+    repeated.insert(4, rows[3].clone());
+    assert_eq!(fit(&rows, vec![3, 7], false), fit(&repeated, vec![4, 8], false));
+    assert_eq!(fit(&rows, vec![11], false), fit(&repeated, vec![12], false));
+    for mut seamed in [rows.clone(), repeated] {
+        seamed.push(rows[0].clone());
+        let last = seamed.len() - 1;
+        assert_eq!(fit(&rows, vec![0], true), fit(&seamed, vec![last], true));
+    }
+}
+
+#[test]
+fn no_choice_of_points_makes_a_fit_panic_or_tell_no_number() {
+    let hostile = [f64::NAN, 1e300, -1e300, 1e-300, 0.0, 1e9 + 0.25, 1.0, f64::INFINITY];
+    let mut random = Random::new(77);
+    for round in 0..400 {
+        let count = (random.unit() * 9.0) as usize;
+        let dimension = [1, 2, 3, 7][round % 4];
+        let wild = random.unit() < 0.5;
+        let value = |random: &mut Random| {
+            if wild && random.unit() < 0.2 {
+                hostile[(random.unit() * 7.99) as usize]
+            } else {
+                (random.unit() * 8.0).floor()
+            }
+        };
+        let coordinates: Vec<f64> = (0..count * dimension).map(|_| value(&mut random)).collect();
+        let Ok(data) = PointsView::new(dimension, &coordinates) else { continue };
+        let local = (random.unit() < 0.7)
+            .then(|| (0..3).map(|_| (random.unit() * 10.0) as usize).collect());
+        let methods = [Method::Local, Method::Adaptive, Method::Auto, Method::Chebyshev];
+        let options = CurveOptions {
+            degree: 1 + round % 5,
+            closed: random.unit() < 0.4,
+            method: methods[(random.unit() * 3.99) as usize],
+            local,
+            iterations: 200,
+            duplicates: [Duplicates::Drop, Duplicates::Error, Duplicates::Merge][round % 3],
+            ..Default::default()
+        };
+        if let Ok(fit) = fit_curve(data, &options) {
+            assert!(fit.report.run.max_residual.is_finite());
+            let local = fit.report.run.local;
+            assert!(local.is_none_or(|local| local.outside_max_residual.is_finite()));
+            let control = fit.curve.control_points();
+            assert!(control.coordinates().iter().all(|x| x.is_finite()));
+        }
+    }
+}
