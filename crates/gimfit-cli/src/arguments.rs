@@ -245,6 +245,11 @@ pub(crate) struct IterationArguments {
     #[arg(long, value_name = "Q", help_heading = "Iteration")]
     pub(crate) memory: Option<usize>,
 
+    /// Where the geometric method looks for the first foot points: near the parameters assigned
+    /// (last), or on the whole curve or surface (global) [default: last]
+    #[arg(long, value_enum, value_name = "START", help_heading = "Iteration")]
+    pub(crate) foot_points: Option<FootPointStart>,
+
     /// Most iterations
     #[arg(long, default_value_t = 1000, value_name = "N", help_heading = "Iteration")]
     pub(crate) iterations: usize,
@@ -407,6 +412,15 @@ impl From<DuplicatesChoice> for Duplicates {
     }
 }
 
+/// Where the first foot points are looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum FootPointStart {
+    /// From the parameters assigned
+    Last,
+    /// On the whole curve or surface
+    Global,
+}
+
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum MethodChoice {
     /// Rounding level quickly on any spacing
@@ -427,6 +441,8 @@ pub(crate) enum MethodChoice {
     Anderson,
     /// Preconditioned by the band
     Preconditioned,
+    /// Plain steps from the foot points of the data, in place of fixed parameters
+    Geometric,
 }
 
 #[derive(Debug, Args)]

@@ -1,14 +1,18 @@
 //! Methods and their weights, as the arguments of curves and surfaces give them.
 
-use crate::arguments::{IterationArguments, MethodChoice};
+use crate::arguments::{FootPointStart, IterationArguments, MethodChoice};
 use crate::{input, values};
 use anyhow::{anyhow, ensure};
 use gimfit::{IterationWeight, Method};
 use std::path::Path;
 
-/// The method of `--method`, `--bandwidth` and `--memory`.
+/// The method of `--method`, `--bandwidth`, `--memory` and `--foot-points`.
 pub(crate) fn method(arguments: &IterationArguments) -> anyhow::Result<Method> {
-    let IterationArguments { method: choice, bandwidth, memory, .. } = *arguments;
+    let IterationArguments { method: choice, bandwidth, memory, foot_points, .. } = *arguments;
+    ensure!(
+        foot_points.is_none() || choice == MethodChoice::Geometric,
+        "--foot-points belongs to --method geometric"
+    );
     ensure!(
         memory.is_none() || choice == MethodChoice::Anderson,
         "--memory belongs to --method anderson"
@@ -26,6 +30,9 @@ pub(crate) fn method(arguments: &IterationArguments) -> anyhow::Result<Method> {
         MethodChoice::Sor => Method::Sor,
         MethodChoice::Chebyshev => Method::Chebyshev,
         MethodChoice::Anderson => Method::Anderson { memory },
+        MethodChoice::Geometric => {
+            Method::Geometric { global_start: foot_points == Some(FootPointStart::Global) }
+        }
         MethodChoice::Preconditioned => Method::Preconditioned { half_bandwidth: bandwidth },
     })
 }

@@ -79,6 +79,27 @@ fn every_method_reaches_the_same_curve() {
 }
 
 #[test]
+fn geometric_interpolation_tells_how_its_foot_points_fared() {
+    let place = Place::with("wave.csv", wave(20));
+    let document = place.fit("wave.csv --method geometric --keep 0,2");
+    let report = &document["report"];
+    assert_eq!(report["method"], "geometric");
+    assert!(report["foot_points"]["largest_move"].as_f64().unwrap() > 0.0);
+    assert!(report["foot_points"]["fall_back"].is_null());
+    // Residuals are distances from the curve, up to rounding of coordinates.
+    let length = |key: &str| report[key].as_f64().unwrap();
+    let gap = length("max_residual") - length("max_deviation");
+    assert!((0.0..1e-14 * length("extent")).contains(&gap), "{gap:e}");
+    assert!(report["smallest_eigenvalue"].as_f64().unwrap() > 0.1);
+    assert_eq!(document["sequence"].as_array().unwrap().len(), 2);
+    // Points that hop to and fro have foot points beyond each other.
+    place.write("hops.csv", "x,y\n2,9\n1,4\n1,7\n7,7\n6,3\n1,7\n0,6\n6,9\n");
+    let fall_back = &place.fit("hops.csv --method geometric")["report"]["foot_points"]["fall_back"];
+    assert_eq!(fall_back["condition"], "order");
+    assert!(fall_back["reason"].as_str().unwrap().contains("lost their order"));
+}
+
+#[test]
 fn weights_given_per_point_act_like_the_same_weight_given_once() {
     let place = Place::with("wave.csv", wave(12));
     place.write("weights.txt", "1.1\n".repeat(12));

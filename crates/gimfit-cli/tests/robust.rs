@@ -136,7 +136,7 @@ fn a_spacing_of_a_million_to_one_is_fitted() {
 #[test]
 fn a_method_that_cannot_finish_says_so_and_gives_finite_numbers() {
     let content = "0,0\n1,0\n1.000001,0\n2,1\n3,1\n3.000001,1\n4,0\n5,1\n";
-    for method in ["pia", "weighted", "jacobi", "gauss-seidel", "sor", "chebyshev"] {
+    for method in ["pia", "weighted", "jacobi", "gauss-seidel", "sor", "chebyshev", "geometric"] {
         let place = Place::with("a.csv", content);
         let line = format!("curve a.csv --method {method} --iterations 300 -q -o a.json");
         let ran = place.run(&line);

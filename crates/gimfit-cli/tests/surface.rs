@@ -289,3 +289,24 @@ fn info_tells_of_grids_and_of_their_missing_cells() {
         gimfit(at, &format!("surface {file}")).code(2);
     }
 }
+
+#[test]
+fn foot_points_of_a_surface_are_in_its_document() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    fs::write(at.join("peaks.csv"), peaks()).unwrap();
+    gimfit(at, "surface peaks.csv --method geometric -o fit.json -o fit.svg -q").code(0);
+    let document: serde_json::Value =
+        serde_json::from_slice(&fs::read(at.join("fit.json")).unwrap()).unwrap();
+    let fell = !document["report"]["foot_points"]["fall_back"].is_null();
+    match document["foot_parameters"].as_array() {
+        Some(rows) => {
+            assert!(!fell && rows.len() == 11);
+            assert!(rows.iter().all(|row| row.as_array().unwrap().len() == 11));
+        }
+        None => assert!(fell),
+    }
+    let refused = gimfit(at, "surface peaks.csv --method geometric --per-direction").code(2);
+    assert!(text(&refused.get_output().stderr).contains("both directions at once"));
+    gimfit(at, "surface peaks.csv --method geometric --weight 1.2").code(2);
+}

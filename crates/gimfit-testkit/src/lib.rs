@@ -6,5 +6,6 @@ pub mod blending;
 pub mod convexity;
 pub mod dense;
 pub mod generate;
+pub mod geometric;
 pub mod nearest;
 pub mod textbook;

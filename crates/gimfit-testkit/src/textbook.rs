@@ -16,6 +16,15 @@ pub fn basis_function(u: &[f64], p: usize, i: usize, t: f64) -> f64 {
     part(t - u[i], u[i + p] - u[i], i) + part(u[i + p + 1] - t, u[i + p + 1] - u[i + 1], i + 1)
 }
 
+/// The derivative of `B_(i, p)` at `t`, from functions of degree `p - 1` (de Boor 1978).
+#[must_use]
+pub fn basis_derivative(u: &[f64], p: usize, i: usize, t: f64) -> f64 {
+    let part = |length: f64, j: usize| {
+        if length > 0.0 { p as f64 / length * basis_function(u, p - 1, j, t) } else { 0.0 }
+    };
+    part(u[i + p] - u[i], i) - part(u[i + p + 1] - u[i + 1], i + 1)
+}
+
 /// The point of a curve, from the definition; `control` holds a row per control point.
 #[must_use]
 pub fn curve_point(u: &[f64], p: usize, control: &[Vec<f64>], t: f64) -> Vec<f64> {

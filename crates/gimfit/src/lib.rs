@@ -75,8 +75,8 @@ pub use knots::{KnotPlacement, KnotVector};
 pub use parameters::Parameterization;
 pub use points::{Duplicates, GridView, PointGrid, Points, PointsView};
 pub use report::{
-    ApproximationReport, CurveReport, LocalReport, RunReport, ShapeReport, SurfaceReport,
-    TriangleReport,
+    ApproximationReport, CurveReport, FootPointReport, LocalReport, RunReport, ShapeReport,
+    SurfaceReport, TriangleReport,
 };
 
 /// The Rust examples of the README and of the documentation pages, run as tests.
@@ -100,6 +100,7 @@ mod pages {
         Convex: "docs/methods/convex.md",
         Diagnose: "docs/methods/diagnose.md",
         FootPoints: "docs/methods/foot-points.md",
+        Geometric: "docs/methods/geometric.md",
         GaussSeidel: "docs/methods/gauss-seidel.md",
         Jacobi: "docs/methods/jacobi.md",
         Knots: "docs/methods/knots.md",

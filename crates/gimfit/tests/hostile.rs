@@ -55,6 +55,7 @@ fn any_options() -> impl Strategy<Value = CurveOptions> {
         Method::Preconditioned { half_bandwidth: Some(1) },
         Method::Local,
         Method::Adaptive,
+        Method::Geometric { global_start: false },
     ]);
     let local = prop_oneof![
         3 => Just(None),
@@ -149,6 +150,10 @@ fn check_surface(
             let finite = |list: &[f64]| list.iter().all(|x| x.is_finite());
             assert!(finite(fit.surface.control_net().points().coordinates()));
             assert!(finite(&fit.parameters[0]) && finite(&fit.parameters[1]));
+            let [(u_0, u_1), (v_0, v_1)] = fit.surface.domain();
+            for [u, v] in fit.foot_parameters.iter().flatten() {
+                assert!((u_0..=u_1).contains(u) && (v_0..=v_1).contains(v));
+            }
             assert!(finite(fit.difference_vectors.coordinates()));
             let report = &fit.report;
             assert!(finite(&[

@@ -4,6 +4,7 @@ mod bases;
 mod chen2012;
 mod functions2007;
 mod lin2004;
+mod lin2010;
 mod measure;
 mod orsi2021;
 mod spectra;
@@ -24,7 +25,7 @@ struct Reproduction {
     recompute: fn() -> anyhow::Result<Table>,
 }
 
-const REPRODUCTIONS: [Reproduction; 7] = [
+const REPRODUCTIONS: [Reproduction; 8] = [
     Reproduction {
         name: "wang2007",
         line: "Wang, Li, Jiang and Li 2007, Table 1: closed quadratic curve, 15 passes",
@@ -44,6 +45,11 @@ const REPRODUCTIONS: [Reproduction; 7] = [
         name: "chen2012",
         line: "Chen, Wang and Jin 2012, Tables 1 to 3: Wang-Ball curve; weights per point",
         recompute: chen2012::recompute,
+    },
+    Reproduction {
+        name: "lin2010",
+        line: "Lin 2010: geometric interpolation, recomputed independently",
+        recompute: lin2010::recompute,
     },
     Reproduction {
         name: "orsi2021",

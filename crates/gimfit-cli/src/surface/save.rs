@@ -37,6 +37,7 @@ impl Product for Job<'_> {
             document = SurfaceDocument {
                 geometry: None,
                 parameters: None,
+                foot_parameters: None,
                 coordinate_names: None,
                 sequence: None,
                 ..document

@@ -1,6 +1,6 @@
 //! What every report of a fit holds, whatever its geometry.
 
-use gimfit::RunReport;
+use gimfit::{FootPointReport, RunReport};
 use serde::{Deserialize, Serialize};
 
 /// Residuals after an iteration.
@@ -39,6 +39,39 @@ pub struct Seconds {
     pub write: Option<f64>,
 }
 
+/// How the foot points of geometric interpolation fared.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FootPointData {
+    /// How far the parameter of a data point ended from the one assigned to it, at most.
+    pub largest_move: f64,
+    /// Where they were given up for parameters that stay; null if they were not.
+    pub fall_back: Option<FallBackData>,
+}
+
+/// Where foot points were given up, and why.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FallBackData {
+    /// The iteration whose foot points could not be used.
+    pub iteration: usize,
+    /// `order`, `schoenberg-whitney`, `eigenvalue` or `growth`.
+    pub condition: String,
+    /// The same as a sentence.
+    pub reason: String,
+}
+
+impl FootPointData {
+    fn of(report: &FootPointReport) -> Self {
+        Self {
+            largest_move: report.largest_move,
+            fall_back: report.fall_back.map(|fall_back| FallBackData {
+                iteration: fall_back.iteration,
+                condition: fall_back.reason.as_str().into(),
+                reason: fall_back.reason.to_string(),
+            }),
+        }
+    }
+}
+
 /// The account of a run. Lengths are in the unit of the data.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunData {
@@ -62,6 +95,9 @@ pub struct RunData {
     pub rms_residual: f64,
     /// Smallest eigenvalue of the collocation operator, where it was needed.
     pub smallest_eigenvalue: Option<f64>,
+    /// How the foot points of geometric interpolation fared; absent for other methods.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub foot_points: Option<FootPointData>,
     /// Measured times.
     #[serde(default)]
     pub seconds: Option<Seconds>,
@@ -84,6 +120,7 @@ impl RunData {
             max_residual: run.max_residual,
             rms_residual: run.rms_residual,
             smallest_eigenvalue: run.smallest_eigenvalue,
+            foot_points: run.foot_points.as_ref().map(FootPointData::of),
             seconds: None,
             history: run.history.iter().map(HistoryRow::of).collect(),
         }

@@ -20,6 +20,10 @@ pub struct SurfaceDocument {
     /// Parameters of the rows and of the columns of points fitted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub parameters: Option<[Vec<f64>; 2]>,
+    /// Parameters (u, v) of each point fitted, in rows, where geometric interpolation left each with
+    /// its own; residuals are those there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub foot_parameters: Option<Vec<Vec<[f64; 2]>>>,
     /// Names of the coordinates, where the input had them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coordinate_names: Option<Vec<String>>,
@@ -70,6 +74,10 @@ pub fn surface_document_of(fit: &SurfaceFit) -> SurfaceDocument {
         geometry: Some(SurfaceKind::Surface(SurfaceGeometry::of(&fit.surface))),
         blending: None,
         parameters: Some(fit.parameters.clone()),
+        foot_parameters: fit
+            .foot_parameters
+            .as_ref()
+            .map(|pairs| pairs.chunks(fit.parameters[1].len().max(1)).map(<[_]>::to_vec).collect()),
         coordinate_names: None,
         report: Some(SurfaceReportData::of(&fit.report)),
         sequence: (!fit.sequence.is_empty())

@@ -6,7 +6,7 @@ use crate::Error;
 
 /// Square collocation matrix whose row `j` has `width` weights near column `j`, wrapping round for
 /// closed curves. Memory: `8 width + 4` bytes a row.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct BandedCollocation {
     width: usize,
     first: Vec<i32>,
@@ -17,6 +17,10 @@ impl BandedCollocation {
     pub(super) fn from_rows(width: usize, first: Vec<i32>, weights: Vec<f64>) -> Self {
         debug_assert_eq!(weights.len(), first.len() * width);
         Self { width, first, weights }
+    }
+
+    pub(super) fn into_rows(self) -> (usize, Vec<i32>, Vec<f64>) {
+        (self.width, self.first, self.weights)
     }
 
     pub(crate) fn rows(&self) -> Rows<'_> {

@@ -59,6 +59,20 @@ impl BorderedFactors {
         (sound && (wrapped == 0 || factors.pass_probe(operator))).then_some(factors)
     }
 
+    /// Factors another band of as many rows that does not wrap; false where that needs pivoting.
+    pub(super) fn renew(&mut self, operator: &BandedCollocation, reach: usize) -> bool {
+        let widest = band_kernel::stored_reach(operator.rows().width - 1);
+        self.count = operator.points();
+        self.reach = band_kernel::stored_reach(reach);
+        self.border = None;
+        self.lower.clear();
+        self.upper.clear();
+        self.lower.reserve(self.count * widest);
+        self.upper.reserve(self.count * (widest + 1));
+        let (lower, upper) = (&mut self.lower, &mut self.upper);
+        band_kernel::factor(operator.rows(), self.count, self.reach, lower, upper)
+    }
+
     /// Whether a right side made of a rough vector is met again: the band without its border may be
     /// so badly conditioned that the way round it loses all digits.
     fn pass_probe(&self, operator: &BandedCollocation) -> bool {

@@ -16,6 +16,27 @@ pub struct Interpolation {
     pub layout: ControlLayout,
 }
 
+impl Interpolation {
+    /// Collocates the same basis at other parameters of the domain, in place: the control points
+    /// keep their meaning. A closed curve's parameters step back at the seam at most once.
+    ///
+    /// # Errors
+    /// [`Error::SchoenbergWhitney`] if a data point no longer meets its basis function; the rows
+    /// are those of the new parameters all the same.
+    pub(crate) fn recollocate(&mut self, t: &[f64], knots: &KnotVector) -> Result<(), Error> {
+        let mut rows = CollocationRows::of_operator(std::mem::take(&mut self.operator));
+        rows.fill(t, knots);
+        match self.layout {
+            ControlLayout::Free => {}
+            ControlLayout::Tied { per_end } => rows.tie(per_end, t.len()),
+            ControlLayout::Periodic { shift, .. } => rows.shift(shift),
+        }
+        let met = check_diagonal(&rows, t);
+        self.operator = rows.into_operator();
+        met
+    }
+}
+
 /// Collocates the basis at the parameters, one control point per data point.
 ///
 /// # Errors
@@ -106,32 +127,46 @@ pub(super) struct CollocationRows {
 
 /// Rows over the stored control points.
 pub(super) fn collocate(t: &[f64], knots: &KnotVector) -> CollocationRows {
-    let degree = knots.degree();
-    let width = degree + 1;
-    let mut first = memory::with_capacity(t.len());
-    let mut weights = memory::with_capacity(t.len() * width);
-    let mut values = [0.0; MAX_DEGREE + 1];
-    let mut span = degree;
-    let mut previous = f64::NEG_INFINITY;
-    for &t in t {
-        // Only the seam of a closed curve steps back.
-        span = knots.span_from(if t < previous { degree } else { span }, t);
-        previous = t;
-        basis_functions(knots.values(), degree, span, t, &mut values);
-        first.push((span - degree) as i32);
-        // A length known at compile time spares a call per row.
-        match width {
-            4 => weights.extend_from_slice(&values[..4]),
-            _ => weights.extend_from_slice(&values[..width]),
-        }
-    }
-    CollocationRows { width, first, weights }
+    let width = knots.degree() + 1;
+    let first = memory::with_capacity(t.len());
+    let weights = memory::with_capacity(t.len() * width);
+    let mut rows = CollocationRows { width, first, weights };
+    rows.fill(t, knots);
+    rows
 }
 
 impl CollocationRows {
     /// First columns and weights.
     pub(super) fn into_parts(self) -> (Vec<i32>, Vec<f64>) {
         (self.first, self.weights)
+    }
+
+    /// Rows over the stored control points, in place of those held.
+    fn fill(&mut self, t: &[f64], knots: &KnotVector) {
+        let Self { width, first, weights } = self;
+        let degree = knots.degree();
+        first.clear();
+        weights.clear();
+        let mut values = [0.0; MAX_DEGREE + 1];
+        let mut span = degree;
+        let mut previous = f64::NEG_INFINITY;
+        for &t in t {
+            // Only the seam of a closed curve steps back.
+            span = knots.span_from(if t < previous { degree } else { span }, t);
+            previous = t;
+            basis_functions(knots.values(), degree, span, t, &mut values);
+            first.push((span - degree) as i32);
+            // A length known at compile time spares a call per row.
+            match *width {
+                4 => weights.extend_from_slice(&values[..4]),
+                _ => weights.extend_from_slice(&values[..*width]),
+            }
+        }
+    }
+
+    fn of_operator(operator: BandedCollocation) -> Self {
+        let (width, first, weights) = operator.into_rows();
+        Self { width, first, weights }
     }
 
     fn into_operator(self) -> BandedCollocation {

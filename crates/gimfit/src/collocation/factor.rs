@@ -40,6 +40,16 @@ impl Factorization {
         Ok(Self { points, factors })
     }
 
+    /// Factors another band of as many rows in place of this one; false if that is singular. Open
+    /// curves need new memory once at most.
+    pub(super) fn renew(&mut self, operator: &BandedCollocation) -> bool {
+        let (reach, wrapped) = reach(operator.rows());
+        match &mut self.factors {
+            Factors::Bordered(factors) if wrapped == 0 => factors.renew(operator, reach),
+            _ => Self::of_band(operator).map(|factors| *self = factors).is_ok(),
+        }
+    }
+
     /// Factors a dense matrix, row by row; `None` if it is singular.
     pub(super) fn of_dense(points: usize, matrix: Vec<f64>) -> Option<Self> {
         Some(Self { points, factors: Factors::Dense(DenseFactors::new(points, matrix)?) })

@@ -49,6 +49,36 @@ impl ControlLayout {
     }
 }
 
+impl ControlLayout {
+    /// How many control points are stored for `moving` that move.
+    #[must_use]
+    pub fn stored(&self, moving: usize) -> usize {
+        match *self {
+            Self::Free => moving,
+            Self::Tied { per_end } => moving + 2 * per_end,
+            Self::Periodic { degree, .. } => moving + degree,
+        }
+    }
+
+    /// The control point that moves the one stored at a place, out of `moving`.
+    pub(super) fn source(&self, place: usize, moving: usize) -> usize {
+        match *self {
+            Self::Free => place,
+            Self::Tied { per_end } => place.saturating_sub(per_end).min(moving - 1),
+            Self::Periodic { shift, .. } => (place + moving - shift % moving) % moving,
+        }
+    }
+
+    /// As [`ControlLayout::expand`], into an array of shape (stored, dimension).
+    pub fn expand_into(&self, moving: &[f64], dimension: usize, stored: &mut [f64]) {
+        let count = moving.len() / dimension;
+        for (place, point) in stored.chunks_exact_mut(dimension).enumerate() {
+            let source = self.source(place, count);
+            point.copy_from_slice(&moving[source * dimension..][..dimension]);
+        }
+    }
+}
+
 /// [`ControlLayout`]s of the two directions of a net.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct NetLayout {
@@ -72,6 +102,17 @@ impl NetLayout {
         }
         tall.chunks_exact(line).flat_map(|row| self.v.expand(row.to_vec(), dimension)).collect()
     }
+
+    /// As [`NetLayout::expand`], into an array of shape (n_u, n_v, dimension).
+    pub fn expand_into(&self, moving: &[f64], dimension: usize, stored: &mut [f64]) {
+        let line = self.columns * dimension;
+        let rows = moving.len() / line;
+        let stored_line = self.v.stored(self.columns) * dimension;
+        for (place, row) in stored.chunks_exact_mut(stored_line).enumerate() {
+            let source = self.u.source(place, rows);
+            self.v.expand_into(&moving[source * line..][..line], dimension, row);
+        }
+    }
 }
 
 #[cfg(test)]
@@ -86,5 +127,27 @@ mod tests {
         let periodic = ControlLayout::Periodic { shift: 1, degree: 3 };
         assert_eq!(periodic.expand(moving.clone(), 1), [4.0, 1.0, 2.0, 3.0, 4.0, 1.0, 2.0]);
         assert_eq!(ControlLayout::Free.expand(moving.clone(), 1), moving);
+    }
+
+    #[test]
+    fn both_ways_to_expand_agree() {
+        let layouts = [
+            ControlLayout::Free,
+            ControlLayout::Tied { per_end: 2 },
+            ControlLayout::Periodic { shift: 1, degree: 3 },
+            ControlLayout::Periodic { shift: 7, degree: 2 },
+        ];
+        let moving: Vec<f64> = (0..5 * 4 * 2).map(f64::from).collect();
+        for u in layouts {
+            let mut stored = vec![f64::NAN; u.stored(5) * 8];
+            u.expand_into(&moving, 8, &mut stored);
+            assert_eq!(stored, u.expand(moving.clone(), 8));
+            for v in layouts {
+                let net = NetLayout { u, v, columns: 4 };
+                let mut stored = vec![f64::NAN; u.stored(5) * v.stored(4) * 2];
+                net.expand_into(&moving, 2, &mut stored);
+                assert_eq!(stored, net.expand(moving.clone(), 2));
+            }
+        }
     }
 }

@@ -14,7 +14,9 @@ mod layout;
 mod least_squares;
 mod local;
 mod rational_net;
+mod scattered;
 mod spectrum;
+mod watch;
 
 pub use banded::BandedCollocation;
 pub(crate) use build::wrap;
@@ -26,11 +28,13 @@ pub use layout::{ControlLayout, NetLayout};
 pub(crate) use least_squares::DataRows;
 pub use local::LocalCollocation;
 pub use rational_net::{NetWeights, RationalTensorCollocation};
+pub(crate) use scattered::ScatteredCollocation;
 pub use spectrum::{
     Eigenvalue, EigenvalueBounds, all_eigenvalues, best_weight, eigenvalues, gauss_seidel_rate,
     largest_jacobi_eigenvalue, lemma2_weight, rate_with_weight, smallest_eigenvalue,
     smallest_eigenvalue_of,
 };
+pub(crate) use watch::EigenvalueWatch;
 
 /// What an iteration needs of `A = [B_i(t_j)]`, whatever the geometry behind it. Vectors are flat
 /// arrays of shape (points, dimension) and (control points, dimension), row-major.
@@ -57,6 +61,10 @@ pub trait CollocationOperator: std::fmt::Debug {
     fn as_band(&self) -> Option<&BandedCollocation> {
         None
     }
+
+    /// Forgets the calls made before, ahead of a run or its repetition. Only an operator whose rows
+    /// move has anything to forget.
+    fn reset(&self) {}
 }
 
 /// A square collocation matrix whose entries can be had: what rules beyond plain weights ask for.

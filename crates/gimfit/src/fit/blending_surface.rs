@@ -47,6 +47,7 @@ impl BlendingSurfaceFit {
         Ok(SurfaceFit {
             surface: self.surface.to_bezier()?,
             parameters: self.parameters.clone(),
+            foot_parameters: None,
             difference_vectors: self.difference_vectors.clone(),
             report: self.report.clone(),
             sequence: kept.collect::<Result<_, Error>>()?,

@@ -1,21 +1,22 @@
 //! Interpolation of ordered points by a B-spline curve.
 
 use super::convex::{Interpolating, Keeping};
+use super::geometric::{self, Account};
 use super::local::{Chosen, positions_fitted};
 use super::prepare::{Prepared, prepare};
 use super::rational::fitted_weights;
 use super::solve::{Size, Task, norm, solve, unscaled};
-use super::{CurveOptions, KeptFit, local};
+use super::{CurveOptions, KeptFit, Method, local};
 use crate::Error;
 use crate::collocation::{
-    CollocationOperator, ControlLayout, Interpolation, LocalCollocation, interpolation, wrap,
+    BandedCollocation, CollocationOperator, ControlLayout, LocalCollocation, interpolation, wrap,
 };
 use crate::geometry::Curve;
 use crate::iteration::{NoObserver, Observer};
 use crate::knots::{KnotPlacement, KnotVector, place_knots};
 use crate::parameters::{Parameterization, Parameters, assign_parameters};
 use crate::points::{Extent, Points, PointsView, PowerOfTwoScale};
-use crate::projection::largest_deviation;
+use crate::projection::{FootPointCollocation, largest_deviation};
 use crate::report::CurveReport;
 
 /// A fitted curve and the account of how it came about.
@@ -194,6 +195,12 @@ struct Problem<'a> {
     rational_weights: Option<Vec<f64>>,
 }
 
+/// The collocation matrix, at parameters that stay or that follow the foot points.
+enum Rows {
+    Fixed(BandedCollocation),
+    Moving(Box<FootPointCollocation>),
+}
+
 fn fit_problem(
     problem: Problem<'_>,
     options: &CurveOptions,
@@ -201,12 +208,12 @@ fn fit_problem(
 ) -> Result<CurveFit, Error> {
     let Problem { data, size, parameters, knots, rational_weights } = problem;
     let scale = size.scale;
-    let Interpolation { mut operator, layout } = interpolation(&parameters, &knots)?;
+    let mut built = interpolation(&parameters, &knots)?;
     if let Some(weights) = &rational_weights {
-        operator.weigh(weights);
+        built.operator.weigh(weights);
     }
+    let layout = built.layout;
     let dimension = data.dimension();
-    let gradual = options.keep.iter().copied().max().unwrap_or(0).min(options.iterations);
     if options.convexity.is_some() && rational_weights.is_some() {
         return Err(Error::Incompatible {
             what: "keeping the turns of the data",
@@ -217,20 +224,52 @@ fn fit_problem(
     let mut notes = Vec::new();
     let stopping = size.stopping(options.residual, options.iterations, &mut notes)?;
     let mut keeping = match options.convexity {
+        Some(_) if matches!(options.method, Method::Geometric { .. }) => {
+            return Err(Error::Incompatible {
+                what: "keeping the turns of the data",
+                with: "geometric interpolation",
+                why: "it needs parameters that stay; use pia or auto",
+            });
+        }
         Some(convexity) => Some(Keeping::new(convexity, data, parameters.period().is_some())?),
         None => None,
     };
-    let local = Chosen::of(options, &operator)?;
-    let mut chosen = match &mut keeping {
-        Some(keeping) => {
+    let rows = if let Method::Geometric { global_start } = options.method {
+        if options.local.is_some() {
+            return Err(Error::Incompatible {
+                what: "local PIA",
+                with: "geometric interpolation",
+                why: "foot points move on the whole curve; use another method",
+            });
+        }
+        geometric::check_dimension(dimension, 2)?;
+        let start = parameters.values();
+        let weights = rational_weights.as_deref();
+        let moving = FootPointCollocation::new(built, &knots, start, dimension, weights)?;
+        Rows::Moving(Box::new(if global_start { moving.with_global_start() } else { moving }))
+    } else {
+        Rows::Fixed(built.operator)
+    };
+    let local = match &rows {
+        Rows::Fixed(fixed) => Chosen::of(options, fixed)?,
+        Rows::Moving(_) => None,
+    };
+    let gradual = options.keep.iter().copied().max().unwrap_or(0).min(options.iterations);
+    let (operator, mut chosen): (&dyn CollocationOperator, _) = match (&rows, &mut keeping) {
+        (Rows::Moving(moving), _) => {
+            (&**moving, geometric::curve_rule(moving, options.method, &options.weight)?)
+        }
+        (Rows::Fixed(fixed), Some(keeping)) => {
             let threshold = size.threshold(options.convexity)?;
             let problem = Interpolating { data, parameters: &parameters, knots: &knots, layout };
-            keeping.choose(&problem, options, &operator, threshold, gradual)?
+            (fixed, keeping.choose(&problem, options, fixed, threshold, gradual)?)
         }
-        None => local::choose(options, local.as_ref(), &operator, dimension, gradual, stopping)?,
+        (Rows::Fixed(fixed), None) => {
+            (fixed, local::choose(options, local.as_ref(), fixed, dimension, gradual, stopping)?)
+        }
     };
     chosen.choices.append(&mut notes);
-    let seen = local.as_ref().map(|local| LocalCollocation::new(&operator, &local.points));
+    let seen = local.as_ref().map(|local| LocalCollocation::new(operator, &local.points));
     let expand = |control| {
         let stored = layout.expand(control, dimension);
         match &keeping {
@@ -239,7 +278,7 @@ fn fit_problem(
         }
     };
     let task = Task {
-        operator: seen.as_ref().map_or(&operator as &dyn CollocationOperator, |seen| seen),
+        operator: seen.as_ref().map_or(operator, |seen| seen),
         data: data.coordinates(),
         dimension,
         size: &size,
@@ -254,7 +293,13 @@ fn fit_problem(
     drop(chosen);
     drop(seen);
     drop(local);
-    drop(operator);
+    let parameters = match rows {
+        Rows::Fixed(_) => parameters,
+        Rows::Moving(moving) => {
+            Account::of_curve(&moving).tell(&mut solved, |j| format!("number {}", j + 1));
+            parameters.moved(moving.rising_parameters())?
+        }
+    };
 
     let (parameters, spacing_ratio) = finish_parameters(parameters, &knots, layout);
     let shape = keeping.as_ref().map(|keeping| keeping.report(&solved.control));

@@ -7,13 +7,16 @@ use crate::Error;
 use crate::geometry::TriangularPatch;
 use crate::iteration::Termination;
 use crate::points::{Extent, PointGrid, Points, PointsView};
-use crate::projection::{largest_deviation, largest_surface_deviation, largest_triangle_deviation};
+use crate::projection::{
+    largest_deviation, largest_surface_deviation_from, largest_triangle_deviation,
+};
 use crate::report::RunReport;
 
 impl CurveFit {
     /// The fit kept at an iteration as a fit of its own: the curve, its difference vectors, and a
     /// report with the residuals and the deviation of that curve. What was fitted, and over which
-    /// parameters and knots, is the same.
+    /// parameters and knots, is the same: of geometric interpolation, the parameters are the last
+    /// ones, so that the residuals are not those from the foot points of that curve.
     ///
     /// # Errors
     /// [`Error::NotKept`] for an iteration that [`CurveOptions::keep`](super::CurveOptions::keep)
@@ -84,9 +87,12 @@ impl SurfaceFit {
         let mut data = vectors.clone();
         let mut ours = vec![0.0; dimension];
         let mut theirs = vec![0.0; dimension];
-        let places = rows.iter().flat_map(|&u| columns.iter().map(move |&v| (u, v)));
+        let places: Vec<[f64; 2]> = match &self.foot_parameters {
+            Some(pairs) => pairs.clone(),
+            None => rows.iter().flat_map(|&u| columns.iter().map(move |&v| [u, v])).collect(),
+        };
         let each = vectors.chunks_exact_mut(dimension).zip(data.chunks_exact_mut(dimension));
-        for ((vector, point), (u, v)) in each.zip(places) {
+        for ((vector, point), &[u, v]) in each.zip(&places) {
             self.surface.evaluate_into(u, v, &mut theirs)?;
             surface.evaluate_into(u, v, &mut ours)?;
             for i in 0..dimension {
@@ -97,7 +103,7 @@ impl SurfaceFit {
         let measured = measure(&data, &vectors, dimension, |size, view, residuals| {
             let control = size.scale.apply(kept.control_points.coordinates()).into_owned();
             let surface = surface.with_control_net(net(control)?)?;
-            largest_surface_deviation(&surface, view, [rows, columns], residuals)
+            largest_surface_deviation_from(&surface, view, &places, residuals)
         })?;
         let cell = |index: usize| [index / columns.len(), index % columns.len()];
         let mut report = self.report.clone();
@@ -108,6 +114,7 @@ impl SurfaceFit {
         Ok(SurfaceFit {
             surface,
             parameters: self.parameters.clone(),
+            foot_parameters: self.foot_parameters.clone(),
             difference_vectors: Points::new(dimension, vectors)?,
             report,
             sequence: Vec::new(),

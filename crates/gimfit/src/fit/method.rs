@@ -103,6 +103,7 @@ pub(super) fn choose<'a>(
         Method::Preconditioned { half_bandwidth } => {
             ("preconditioned", Box::new(Preconditioned::new(operator, half_bandwidth)?))
         }
+        Method::Geometric { .. } => return Err(NO_FOOT_POINTS),
     };
     Ok(ChosenRule { rule, name, choices, smallest_eigenvalue: eigenvalue })
 }
@@ -125,6 +126,15 @@ pub(super) fn choose_adaptive<'a>(
     let rule = Box::new(Adaptive::new(rows, residual));
     Ok(ChosenRule { rule, name: "adaptive", choices: Vec::new(), smallest_eigenvalue: None })
 }
+
+/// Geometric interpolation is no rule for a matrix that stays; the recipes that know it run it on an
+/// operator of its own.
+pub(super) const NO_FOOT_POINTS: Error = Error::Incompatible {
+    what: "geometric interpolation",
+    with: "this kind of fit",
+    why: "foot points move on whole B-spline curves, and on surfaces in both directions at once; use \
+          pia or auto",
+};
 
 /// The rule of weighted PIA on the Kronecker product of operators; `smallest` finds the smallest
 /// eigenvalue where the weight is left to us.

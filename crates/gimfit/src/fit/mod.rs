@@ -7,6 +7,7 @@ mod convex;
 mod curve;
 mod diagnose;
 mod diagnose_surface;
+mod geometric;
 mod intervals;
 mod keep;
 mod local;

@@ -39,6 +39,13 @@ pub enum Method {
     Local,
     /// Adaptive PIA (Lin 2012): plain PIA that freezes points once they are met.
     Adaptive,
+    /// Geometric interpolation (Maekawa, Matsumoto and Namiki 2007; Lin 2010): the steps of plain
+    /// PIA from the foot points of the data in place of fixed parameters.
+    Geometric {
+        /// Whether the first foot points are the nearest of the whole curve or surface; otherwise
+        /// they are looked for from the parameters assigned.
+        global_start: bool,
+    },
 }
 
 /// Weight of the difference vectors, for the methods that have one.

@@ -173,6 +173,7 @@ pub(super) fn solve(
         smallest_eigenvalue: chosen.smallest_eigenvalue,
         updates: chosen.rule.updates(),
         local: None,
+        foot_points: None,
         history,
     };
     Ok(Solved { control, vectors, norms, run, sequence })

@@ -1,6 +1,7 @@
 //! Interpolation of a grid of points by a tensor-product B-spline surface.
 
 use super::curve::{finish_parameters, parameterization_name, placement_name};
+use super::geometric::{self, Net, Pairs};
 use super::method::choose_adaptive;
 use super::rational::{fitted_weights, separate};
 use super::solve::{Size, Solved, Task, norm, solve, unscaled};
@@ -17,7 +18,7 @@ use crate::iteration::{HistoryEntry, NoObserver, Observer, Stopping, Termination
 use crate::knots::{KnotPlacement, KnotVector, place_knots};
 use crate::parameters::{Parameterization, Parameters, assign_grid_parameters};
 use crate::points::{Extent, GridView, PointGrid, Points};
-use crate::projection::largest_surface_deviation;
+use crate::projection::{largest_surface_deviation, largest_surface_deviation_from};
 use crate::report::{RunReport, SurfaceReport};
 use std::borrow::Cow;
 
@@ -28,7 +29,10 @@ pub struct SurfaceFit {
     pub surface: Surface,
     /// Parameters of the rows (u) and of the columns (v) of points, inside the surface's domain.
     pub parameters: [Vec<f64>; 2],
-    /// Difference vectors `Q_ij - S(u_i, v_j)`, row by row.
+    /// Parameters (u, v) of every point, row by row, where geometric interpolation left each with its
+    /// own; `None` where they are those of its row and column.
+    pub foot_parameters: Option<Vec<[f64; 2]>>,
+    /// Difference vectors `Q_ij - S(u_i, v_j)`, row by row; at `foot_parameters` where there are any.
     pub difference_vectors: Points,
     /// What happened.
     pub report: SurfaceReport,
@@ -116,7 +120,21 @@ pub fn fit_surface_observed(
     let expand = |control| layout.expand(control, dimension);
     let stopping = size.stopping(options.residual, options.iterations, &mut choices)?;
     let setting = Setting { view, size: &size, directions, options, stopping, expand: &expand };
-    let (mut solved, stages) = run_net(&setting, observer)?;
+    let geometric = matches!(options.method, Method::Geometric { .. }) && !options.per_direction;
+    let ((mut solved, stages), foot_parameters) = if geometric {
+        let net = Net {
+            directions: [directions.u, directions.v],
+            layout,
+            knots: [&u.knots, &v.knots],
+            parameters: [&u.parameters, &v.parameters],
+            rational_weights: rational_weights.as_deref(),
+            rational: directions.rational,
+        };
+        let (solved, pairs) = at_foot_points(&setting, net, observer)?;
+        ((solved, None), pairs)
+    } else {
+        (run_net(&setting, observer)?, None)
+    };
     choices.append(&mut solved.run.choices);
     solved.run.choices = choices;
 
@@ -138,7 +156,11 @@ pub fn fit_surface_observed(
         (norms.max, norms.max_index)
     } else {
         let residuals: Vec<f64> = solved.vectors.chunks_exact(dimension).map(norm).collect();
-        largest_surface_deviation(&surface, view.points(), [&t_u, &t_v], &residuals)?
+        let points = view.points();
+        match &foot_parameters {
+            Some(pairs) => largest_surface_deviation_from(&surface, points, pairs, &residuals)?,
+            None => largest_surface_deviation(&surface, points, [&t_u, &t_v], &residuals)?,
+        }
     };
     let scale = size.scale;
     let cell = |index: usize| [index / shape[1], index % shape[1]];
@@ -168,6 +190,7 @@ pub fn fit_surface_observed(
     Ok(SurfaceFit {
         surface,
         parameters: [t_u, t_v],
+        foot_parameters,
         difference_vectors: unscaled(Points::new(dimension, solved.vectors)?, scale)?,
         report,
         sequence: solved.sequence,
@@ -318,15 +341,9 @@ fn at_once(setting: &Setting<'_>, observer: &mut dyn Observer) -> Result<Solved,
     let (options, directions) = (setting.options, setting.directions);
     let dimension = setting.view.dimension();
     let gradual = options.keep.iter().copied().max().unwrap_or(0).min(options.iterations);
-    let SurfaceWeight::Both(weight) = &options.weight else {
-        return Err(Error::Incompatible {
-            what: "a weight for each direction",
-            with: "both directions at once",
-            why: "a net that moves as a whole has one weight; run one direction after the other",
-        });
-    };
-    let Directions { u, v, rational } = directions;
+    let weight = one_weight(options)?;
     let mut chosen = if options.method == Method::Adaptive {
+        let Directions { u, v, rational } = directions;
         if rational.is_some() {
             return Err(Error::Incompatible {
                 what: "adaptive",
@@ -339,13 +356,44 @@ fn at_once(setting: &Setting<'_>, observer: &mut dyn Observer) -> Result<Solved,
     } else {
         choose_both(options.method, weight, directions, dimension, gradual)?
     };
-    let operator: Box<dyn CollocationOperator> = match rational {
-        None => Box::new(TensorCollocation::new(u, v, dimension)),
-        Some(net) => Box::new(RationalTensorCollocation::new(u, v, net, dimension)),
-    };
+    let operator = tensor(directions, dimension);
     let data = setting.view.points().coordinates();
     let task = Task { keep: &options.keep, ..setting.task(&*operator, data) };
     solve(&task, &mut chosen, observer)
+}
+
+/// The operator of a net that moves as a whole.
+fn tensor<'a>(directions: Directions<'a>, dimension: usize) -> Box<dyn CollocationOperator + 'a> {
+    let Directions { u, v, rational } = directions;
+    match rational {
+        None => Box::new(TensorCollocation::new(u, v, dimension)),
+        Some(net) => Box::new(RationalTensorCollocation::new(u, v, net, dimension)),
+    }
+}
+
+/// Moves the whole net by the vectors from its foot points.
+fn at_foot_points(
+    setting: &Setting<'_>,
+    net: Net<'_>,
+    observer: &mut dyn Observer,
+) -> Result<(Solved, Option<Pairs>), Error> {
+    let (options, directions) = (setting.options, setting.directions);
+    let operator = tensor(directions, setting.view.dimension());
+    let data = setting.view.points().coordinates();
+    let task = Task { keep: &options.keep, ..setting.task(&*operator, data) };
+    geometric::solve_surface(&task, options.method, one_weight(options)?, net, observer)
+}
+
+/// The weight of a net that moves as a whole.
+fn one_weight(options: &SurfaceOptions) -> Result<&IterationWeight, Error> {
+    match &options.weight {
+        SurfaceWeight::Both(weight) => Ok(weight),
+        SurfaceWeight::PerDirection(_) => Err(Error::Incompatible {
+            what: "a weight for each direction",
+            with: "both directions at once",
+            why: "a net that moves as a whole has one weight; run one direction after the other",
+        }),
+    }
 }
 
 /// Runs the columns to their limit, then the rows: the same limit in far fewer steps, since no step
@@ -446,6 +494,7 @@ fn per_direction(
         max_residual: undo(norms.max),
         rms_residual: undo(norms.rms),
         smallest_eigenvalue: eigenvalues.map(|(u, v)| u * v),
+        foot_points: None,
         history: vec![entry(0, before), entry(iterations, norms)],
     };
     let solved =

@@ -1,6 +1,6 @@
 //! From a named method to a rule on a grid of points.
 
-use super::method::{ChosenRule, anderson, check_weight, choose, weighted, whole};
+use super::method::{ChosenRule, NO_FOOT_POINTS, anderson, check_weight, choose, weighted, whole};
 use super::{IterationWeight, Method};
 use crate::Error;
 use crate::collocation::{
@@ -146,6 +146,7 @@ pub(super) fn choose_both<'a>(
             )?),
         ),
         Method::Preconditioned { half_bandwidth } => ("preconditioned", banded(half_bandwidth)?),
+        Method::Geometric { .. } => return Err(NO_FOOT_POINTS),
     };
     Ok(ChosenRule { rule, name, choices, smallest_eigenvalue: eigenvalue })
 }

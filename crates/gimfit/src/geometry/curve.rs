@@ -134,6 +134,11 @@ impl Curve {
         self.rational_weights.as_deref()
     }
 
+    /// The stored control points, to be moved; those of a periodic curve must go on to repeat.
+    pub(crate) fn control_points_mut(&mut self) -> &mut [f64] {
+        self.control_points.coordinates_mut()
+    }
+
     /// Whether the curve closes smoothly.
     #[must_use]
     pub fn is_periodic(&self) -> bool {

@@ -122,6 +122,12 @@ impl Surface {
         self.rational_weights.as_deref()
     }
 
+    /// The stored control net, row by row, to be moved; what repeats in a periodic direction must go
+    /// on to repeat.
+    pub(crate) fn control_net_mut(&mut self) -> &mut [f64] {
+        self.control_net.coordinates_mut()
+    }
+
     /// Whether the surface closes smoothly in u and in v.
     #[must_use]
     pub fn is_periodic(&self) -> [bool; 2] {

@@ -27,6 +27,7 @@ impl<'a> IterationState<'a> {
     /// (points, dimension).
     #[must_use]
     pub fn begin(operator: &'a dyn CollocationOperator, data: &'a [f64], dimension: usize) -> Self {
+        operator.reset();
         let mut state = Self {
             operator,
             data,
@@ -44,6 +45,7 @@ impl<'a> IterationState<'a> {
     pub fn restart(&mut self) {
         self.control.clear();
         self.iteration = 0;
+        self.operator.reset();
         self.measure();
     }
 

@@ -86,6 +86,17 @@ impl Parameters {
         self.origin
     }
 
+    /// Other values in place of these, on a curve of the same kind and period.
+    ///
+    /// # Errors
+    /// As [`Parameters::open`] and [`Parameters::closed`].
+    pub(crate) fn moved(self, values: Vec<f64>) -> Result<Self, Error> {
+        match self.period {
+            Some(period) => Self::closed(values, period),
+            None => Self::open(values),
+        }
+    }
+
     pub(crate) fn into_values(self) -> Vec<f64> {
         self.values
     }

@@ -89,6 +89,11 @@ impl PointGrid {
         &self.points
     }
 
+    /// All points, to be written into.
+    pub(crate) fn coordinates_mut(&mut self) -> &mut [f64] {
+        self.points.coordinates_mut()
+    }
+
     /// Point (i, j), counted from 0.
     #[must_use]
     pub fn point(&self, i: usize, j: usize) -> &[f64] {

@@ -37,6 +37,11 @@ impl Points {
         &self.coordinates
     }
 
+    /// The flat array, to be written into.
+    pub(crate) fn coordinates_mut(&mut self) -> &mut [f64] {
+        &mut self.coordinates
+    }
+
     /// Gives the flat array back.
     #[must_use]
     pub fn into_coordinates(self) -> Vec<f64> {

@@ -15,9 +15,6 @@ pub struct FootPoint {
     pub distance: f64,
 }
 
-const MOST_STEPS: usize = 30;
-const MOST_HALVINGS: usize = 20;
-
 /// Walks downhill from `start` to a nearest point of the curve: a local minimum of the distance,
 /// never farther away than `C(start)`. On a periodic curve the walk crosses the seam.
 ///
@@ -33,49 +30,111 @@ pub fn local_foot_point(curve: &Curve, point: &[f64], start: f64) -> Result<Foot
             why: "the dimension of the curve",
         });
     }
-    let domain = curve.domain();
-    let mut parameter = start;
-    let mut jet = vec![0.0; 3 * dimension];
-    let mut trial_point = vec![0.0; dimension];
-    curve.derivatives_into(parameter, 2, &mut jet)?;
-    let mut distance = distance_between(&jet[..dimension], point);
-    for _ in 0..MOST_STEPS {
-        let Some(step) = newton_step(&jet, point, dimension) else { break };
-        let mut step = step;
-        let mut improved = false;
-        for _ in 0..MOST_HALVINGS {
-            let trial = inside(parameter + step, domain, curve.is_periodic());
-            if trial == parameter {
-                break;
-            }
-            curve.evaluate_into(trial, &mut trial_point)?;
-            let shorter = distance_between(&trial_point, point);
-            if shorter < distance {
-                (parameter, distance, improved) = (trial, shorter, true);
-                break;
-            }
-            step *= 0.5;
-        }
-        if !improved {
-            break;
-        }
-        curve.derivatives_into(parameter, 2, &mut jet)?;
-    }
-    Ok(FootPoint { parameter, point: jet[..dimension].to_vec(), distance })
+    curve.knots().span(start)?;
+    let mut walk = CurveWalk::new(dimension);
+    let (parameter, distance) = walk.descend(curve, point, start)?;
+    let parameter = inside(parameter, curve.domain(), curve.is_periodic());
+    Ok(FootPoint { parameter, point: walk.jet[..dimension].to_vec(), distance })
 }
 
-/// Step that reduces the distance: Newton's where the distance is convex, otherwise Gauss-Newton's.
-fn newton_step(jet: &[f64], point: &[f64], dimension: usize) -> Option<f64> {
-    let (mut slope, mut speed, mut bend) = (0.0, 0.0, 0.0);
-    for i in 0..dimension {
-        let gap = jet[i] - point[i];
-        slope += gap * jet[dimension + i];
-        speed += jet[dimension + i] * jet[dimension + i];
-        bend += gap * jet[2 * dimension + i];
+const MOST_STEPS: usize = 30;
+const MOST_HALVINGS: usize = 20;
+
+/// The way to a foot point, with the memory it needs.
+#[derive(Debug, Clone)]
+pub(super) struct CurveWalk {
+    /// Point, first and second derivative where the walk stands, and where it may go.
+    jet: Vec<f64>,
+    trial: Vec<f64>,
+}
+
+impl CurveWalk {
+    pub(super) fn new(dimension: usize) -> Self {
+        Self { jet: vec![0.0; 3 * dimension], trial: vec![0.0; 3 * dimension] }
     }
-    let curvature = if speed + bend > 0.0 { speed + bend } else { speed };
-    let step = -slope / curvature;
-    (step.is_finite() && step != 0.0).then_some(step)
+
+    /// As [`local_foot_point`]; returns the parameter and the distance. On a periodic curve
+    /// parameters count laps: they go on past the seam.
+    pub(super) fn descend(
+        &mut self,
+        curve: &Curve,
+        point: &[f64],
+        start: f64,
+    ) -> Result<(f64, f64), Error> {
+        let (domain, periodic) = (curve.domain(), curve.is_periodic());
+        let size = point.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let mut parameter = start;
+        curve.derivatives_into(inside(parameter, domain, periodic), 2, &mut self.jet)?;
+        let mut here = Slope::of(&self.jet, point);
+        for _ in 0..MOST_STEPS {
+            let Some(mut step) = here.step() else { break };
+            // Rounding hides a gain this small; a last step brings the parameter to its place.
+            let hidden = 4.0 * f64::EPSILON * here.distance * (here.distance + size);
+            let last = (here.slope * step).abs() <= hidden;
+            let mut improved = false;
+            for _ in 0..if last { 1 } else { MOST_HALVINGS } {
+                let beyond = parameter + step;
+                let trial = if periodic { beyond } else { inside(beyond, domain, false) };
+                if trial == parameter {
+                    break;
+                }
+                curve.derivatives_into(inside(trial, domain, periodic), 2, &mut self.trial)?;
+                let there = Slope::of(&self.trial, point);
+                improved = if last {
+                    there.distance <= here.distance + 4.0 * f64::EPSILON * (here.distance + size)
+                        && there.slope.abs() < here.slope.abs()
+                } else {
+                    there.distance < here.distance
+                };
+                if improved {
+                    let distance = there.distance.min(here.distance);
+                    (parameter, here) = (trial, Slope { distance, ..there });
+                    std::mem::swap(&mut self.jet, &mut self.trial);
+                    break;
+                }
+                step *= 0.5;
+            }
+            if last || !improved {
+                break;
+            }
+        }
+        Ok((parameter, here.distance))
+    }
+}
+
+/// How the distance changes along the curve.
+#[derive(Debug, Clone, Copy)]
+struct Slope {
+    distance: f64,
+    /// `(C - Q) . C'`.
+    slope: f64,
+    /// `C' . C'`.
+    speed: f64,
+    /// `(C - Q) . C''`.
+    bend: f64,
+}
+
+impl Slope {
+    fn of(jet: &[f64], point: &[f64]) -> Self {
+        let dimension = point.len();
+        let (mut square, mut slope, mut speed, mut bend) = (0.0, 0.0, 0.0, 0.0);
+        for i in 0..dimension {
+            let gap = jet[i] - point[i];
+            square += gap * gap;
+            slope += gap * jet[dimension + i];
+            speed += jet[dimension + i] * jet[dimension + i];
+            bend += gap * jet[2 * dimension + i];
+        }
+        Self { distance: f64::sqrt(square), slope, speed, bend }
+    }
+
+    /// Step that reduces the distance: Newton's where the distance is convex, otherwise
+    /// Gauss-Newton's.
+    fn step(self) -> Option<f64> {
+        let convex = self.speed + self.bend;
+        let step = -self.slope / if convex > 0.0 { convex } else { self.speed };
+        (step.is_finite() && step != 0.0).then_some(step)
+    }
 }
 
 /// Brings a parameter into its domain: round a periodic one, to the end of an open one.
@@ -86,6 +145,7 @@ pub(super) fn inside(t: f64, (start, end): (f64, f64), periodic: bool) -> f64 {
     t.clamp(start, end)
 }
 
+#[cfg(test)]
 fn distance_between(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| (x - y) * (x - y)).sum::<f64>().sqrt()
 }

@@ -4,6 +4,9 @@ mod bernstein;
 mod boxes;
 mod correction;
 mod curve;
+mod fall_back;
+mod geometric;
+mod geometric_surface;
 mod global_curve;
 mod global_surface;
 mod patch;
@@ -14,7 +17,13 @@ mod triangle;
 
 pub(crate) use correction::MovingCurve;
 pub use curve::{FootPoint, largest_deviation, local_foot_point};
+pub use fall_back::{FallBack, FallBackReason, SMALLEST_EIGENVALUE};
+pub use geometric::FootPointCollocation;
+pub use geometric_surface::SurfaceFootPointCollocation;
 pub use global_curve::CurveProjector;
 pub use global_surface::SurfaceProjector;
-pub use surface::{SurfaceFootPoint, largest_surface_deviation, local_surface_foot_point};
+pub use surface::{
+    SurfaceFootPoint, largest_surface_deviation, largest_surface_deviation_from,
+    local_surface_foot_point,
+};
 pub use triangle::{largest_triangle_deviation, local_triangle_distance};

@@ -17,9 +17,6 @@ pub struct SurfaceFootPoint {
     pub distance: f64,
 }
 
-const MOST_STEPS: usize = 30;
-const MOST_HALVINGS: usize = 20;
-
 /// Walks downhill from `start` to a nearest point of the surface: a local minimum of the distance,
 /// never farther away than `S(start)`. In a periodic direction the walk crosses the seam.
 ///
@@ -39,87 +36,174 @@ pub fn local_surface_foot_point(
             why: "the dimension of the surface",
         });
     }
+    for (knots, t) in surface.knots().iter().zip(start) {
+        knots.span(t)?;
+    }
+    let mut walk = SurfaceWalk::new(dimension);
+    let (reached, distance) = walk.descend(surface, point, start, [false, false])?;
     let (domain, periodic) = (surface.domain(), surface.is_periodic());
-    let mut parameters = start;
-    let mut jet = vec![0.0; 9 * dimension];
-    let mut trial_point = vec![0.0; dimension];
-    surface.derivatives_into(start[0], start[1], 2, &mut jet)?;
-    let mut distance = distance_between(&jet[..dimension], point);
-    for _ in 0..MOST_STEPS {
-        let mut step = downhill(&jet, point, dimension, parameters, domain, periodic);
-        let mut improved = false;
-        for _ in 0..MOST_HALVINGS {
-            let trial = [0, 1].map(|k| inside(parameters[k] + step[k], domain[k], periodic[k]));
-            if trial == parameters {
-                break;
-            }
-            surface.evaluate_into(trial[0], trial[1], &mut trial_point)?;
-            let shorter = distance_between(&trial_point, point);
-            if shorter < distance {
-                (parameters, distance, improved) = (trial, shorter, true);
-                break;
-            }
-            step = step.map(|x| 0.5 * x);
-        }
-        if !improved {
-            break;
-        }
-        surface.derivatives_into(parameters[0], parameters[1], 2, &mut jet)?;
-    }
-    Ok(SurfaceFootPoint { parameters, point: jet[..dimension].to_vec(), distance })
+    let parameters = [0, 1].map(|k| inside(reached[k], domain[k], periodic[k]));
+    Ok(SurfaceFootPoint { parameters, point: walk.jet[..dimension].to_vec(), distance })
 }
 
-/// Newton's step where the squared distance is convex, Gauss-Newton's elsewhere, the gradient as
-/// last resort; a parameter at an end of its domain that would leave stays there.
-fn downhill(
-    jet: &[f64],
-    point: &[f64],
-    dimension: usize,
-    parameters: [f64; 2],
-    domain: [(f64, f64); 2],
-    periodic: [bool; 2],
-) -> [f64; 2] {
-    // Partial derivative of order (a, b), as the surface stores them.
-    let part = |a: usize, b: usize| &jet[(3 * a + b) * dimension..][..dimension];
-    let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
-    let gap: Vec<f64> = part(0, 0).iter().zip(point).map(|(s, q)| s - q).collect();
-    let (s_u, s_v) = (part(1, 0), part(0, 1));
-    let gradient = [dot(&gap, s_u), dot(&gap, s_v)];
-    let metric = [dot(s_u, s_u), dot(s_u, s_v), dot(s_v, s_v)];
-    let bend = [dot(&gap, part(2, 0)), dot(&gap, part(1, 1)), dot(&gap, part(0, 2))];
-    let free = [0, 1].map(|k| {
-        let (start, end) = domain[k];
-        periodic[k]
-            || !((parameters[k] <= start && gradient[k] >= 0.0)
-                || (parameters[k] >= end && gradient[k] <= 0.0))
-    });
-    let newton = [0, 1, 2].map(|k| metric[k] + bend[k]);
-    for [a, b, c] in [newton, metric] {
-        let step = match free {
-            [true, true] => {
-                let determinant = a * c - b * b;
-                if !(a > 0.0 && determinant > 1e-14 * a * c) {
-                    continue;
+const MOST_STEPS: usize = 30;
+const MOST_HALVINGS: usize = 20;
+
+/// The way to a foot point, with the memory it needs.
+#[derive(Debug, Clone)]
+pub(super) struct SurfaceWalk {
+    /// Partial derivatives where the walk stands, and where it may go.
+    jet: Vec<f64>,
+    trial: Vec<f64>,
+}
+
+impl SurfaceWalk {
+    pub(super) fn new(dimension: usize) -> Self {
+        Self { jet: vec![0.0; 9 * dimension], trial: vec![0.0; 9 * dimension] }
+    }
+
+    /// As [`local_surface_foot_point`], without moving the parameters that are `held`; returns the
+    /// parameters and the distance. In a periodic direction parameters count laps: they go on past
+    /// the seam.
+    pub(super) fn descend(
+        &mut self,
+        surface: &Surface,
+        point: &[f64],
+        start: [f64; 2],
+        held: [bool; 2],
+    ) -> Result<([f64; 2], f64), Error> {
+        let (domain, periodic) = (surface.domain(), surface.is_periodic());
+        let reduced = |t: [f64; 2]| [0, 1].map(|k| inside(t[k], domain[k], periodic[k]));
+        let size = point.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let mut parameters = start;
+        let [u, v] = reduced(parameters);
+        surface.derivatives_into(u, v, 2, &mut self.jet)?;
+        let mut here = Slope::of(&self.jet, point);
+        for _ in 0..MOST_STEPS {
+            let free = [0, 1].map(|k| {
+                let (from, to) = domain[k];
+                !held[k]
+                    && (periodic[k]
+                        || !((parameters[k] <= from && here.gradient[k] >= 0.0)
+                            || (parameters[k] >= to && here.gradient[k] <= 0.0)))
+            });
+            let mut step = here.step(free);
+            let gain = here.gradient[0] * step[0] + here.gradient[1] * step[1];
+            // Rounding hides a gain this small; a last step brings the parameters to their place.
+            let hidden = 4.0 * f64::EPSILON * here.distance * (here.distance + size);
+            let last = gain.abs() <= hidden;
+            let mut improved = false;
+            for _ in 0..if last { 1 } else { MOST_HALVINGS } {
+                let trial = [0, 1].map(|k| {
+                    let beyond = parameters[k] + step[k];
+                    if periodic[k] { beyond } else { inside(beyond, domain[k], false) }
+                });
+                if trial == parameters {
+                    break;
                 }
-                [
-                    (b * gradient[1] - c * gradient[0]) / determinant,
-                    (b * gradient[0] - a * gradient[1]) / determinant,
-                ]
+                let [u, v] = reduced(trial);
+                surface.derivatives_into(u, v, 2, &mut self.trial)?;
+                let there = Slope::of(&self.trial, point);
+                improved = if last {
+                    there.distance <= here.distance + 4.0 * f64::EPSILON * (here.distance + size)
+                        && there.steepness(free) < here.steepness(free)
+                } else {
+                    there.distance < here.distance
+                };
+                if improved {
+                    let distance = there.distance.min(here.distance);
+                    (parameters, here) = (trial, Slope { distance, ..there });
+                    std::mem::swap(&mut self.jet, &mut self.trial);
+                    break;
+                }
+                step = step.map(|x| 0.5 * x);
             }
-            [true, false] if a > 0.0 => [-gradient[0] / a, 0.0],
-            [false, true] if c > 0.0 => [0.0, -gradient[1] / c],
-            [false, false] => return [0.0, 0.0],
-            _ => continue,
-        };
-        if step.iter().all(|x| x.is_finite()) {
-            return step;
+            if last || !improved {
+                break;
+            }
         }
+        Ok((parameters, here.distance))
     }
-    let size = metric[0].max(metric[2]);
-    let step = [0, 1].map(|k| if free[k] && size > 0.0 { -gradient[k] / size } else { 0.0 });
-    if step.iter().all(|x| x.is_finite()) { step } else { [0.0, 0.0] }
 }
 
+/// How the distance changes on the surface.
+#[derive(Debug, Clone, Copy)]
+struct Slope {
+    distance: f64,
+    /// `(S - Q) . S_u` and `(S - Q) . S_v`.
+    gradient: [f64; 2],
+    /// `S_u . S_u`, `S_u . S_v`, `S_v . S_v`.
+    metric: [f64; 3],
+    /// `(S - Q) . S_uu`, `(S - Q) . S_uv`, `(S - Q) . S_vv`.
+    bend: [f64; 3],
+}
+
+impl Slope {
+    fn of(jet: &[f64], point: &[f64]) -> Self {
+        let dimension = point.len();
+        // Partial derivative of order (a, b), as the surface stores them.
+        let part = |a: usize, b: usize, i: usize| jet[(3 * a + b) * dimension + i];
+        let mut slope =
+            Self { distance: 0.0, gradient: [0.0; 2], metric: [0.0; 3], bend: [0.0; 3] };
+        let mut square = 0.0;
+        for (i, q) in point.iter().enumerate() {
+            let gap = part(0, 0, i) - q;
+            let (s_u, s_v) = (part(1, 0, i), part(0, 1, i));
+            square += gap * gap;
+            slope.gradient[0] += gap * s_u;
+            slope.gradient[1] += gap * s_v;
+            slope.metric[0] += s_u * s_u;
+            slope.metric[1] += s_u * s_v;
+            slope.metric[2] += s_v * s_v;
+            slope.bend[0] += gap * part(2, 0, i);
+            slope.bend[1] += gap * part(1, 1, i);
+            slope.bend[2] += gap * part(0, 2, i);
+        }
+        slope.distance = f64::sqrt(square);
+        slope
+    }
+
+    /// Size of the gradient in the free directions, measured along the surface.
+    fn steepness(&self, free: [bool; 2]) -> f64 {
+        let part = |k: usize, metric: f64| {
+            if free[k] && metric > 0.0 { self.gradient[k] * self.gradient[k] / metric } else { 0.0 }
+        };
+        part(0, self.metric[0]) + part(1, self.metric[2])
+    }
+
+    /// Newton's step where the squared distance is convex, Gauss-Newton's elsewhere, the gradient as
+    /// last resort; only free parameters move.
+    fn step(&self, free: [bool; 2]) -> [f64; 2] {
+        let (gradient, metric) = (self.gradient, self.metric);
+        let newton = [0, 1, 2].map(|k| metric[k] + self.bend[k]);
+        for [a, b, c] in [newton, metric] {
+            let step = match free {
+                [true, true] => {
+                    let determinant = a * c - b * b;
+                    if !(a > 0.0 && determinant > 1e-14 * a * c) {
+                        continue;
+                    }
+                    [
+                        (b * gradient[1] - c * gradient[0]) / determinant,
+                        (b * gradient[0] - a * gradient[1]) / determinant,
+                    ]
+                }
+                [true, false] if a > 0.0 => [-gradient[0] / a, 0.0],
+                [false, true] if c > 0.0 => [0.0, -gradient[1] / c],
+                [false, false] => return [0.0, 0.0],
+                _ => continue,
+            };
+            if step.iter().all(|x| x.is_finite()) {
+                return step;
+            }
+        }
+        let size = metric[0].max(metric[2]);
+        let step = [0, 1].map(|k| if free[k] && size > 0.0 { -gradient[k] / size } else { 0.0 });
+        if step.iter().all(|x| x.is_finite()) { step } else { [0.0, 0.0] }
+    }
+}
+
+#[cfg(test)]
 fn distance_between(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| (x - y) * (x - y)).sum::<f64>().sqrt()
 }
@@ -139,6 +223,22 @@ pub fn largest_surface_deviation(
     super::curve::largest_by(residuals, |index| {
         let start = [parameters[0][index / columns], parameters[1][index % columns]];
         Ok(local_surface_foot_point(surface, points.point(index), start)?.distance)
+    })
+}
+
+/// As [`largest_surface_deviation`], where every point has parameters (u, v) of its own, row by row,
+/// and `residuals` are the distances from the surface there.
+///
+/// # Errors
+/// As [`local_surface_foot_point`].
+pub fn largest_surface_deviation_from(
+    surface: &Surface,
+    points: PointsView<'_>,
+    parameters: &[[f64; 2]],
+    residuals: &[f64],
+) -> Result<(f64, usize), Error> {
+    super::curve::largest_by(residuals, |index| {
+        Ok(local_surface_foot_point(surface, points.point(index), parameters[index])?.distance)
     })
 }
 

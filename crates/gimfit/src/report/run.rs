@@ -1,6 +1,16 @@
 //! The account of a run, whatever geometry it moved.
 
 use crate::iteration::{HistoryEntry, Termination, UpdateCounts};
+use crate::projection::FallBack;
+
+/// How the foot points of geometric interpolation fared.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FootPointReport {
+    /// How far the parameter of a data point ended from the one assigned to it, at most.
+    pub largest_move: f64,
+    /// Where they were given up for parameters that stay, and why.
+    pub fall_back: Option<FallBack>,
+}
 
 /// The account of a run. Lengths are in the unit of the data.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,12 +34,15 @@ pub struct RunReport {
     pub max_residual: f64,
     /// Root mean square of the norms, of the same points.
     pub rms_residual: f64,
-    /// Smallest eigenvalue of the collocation operator, where the method asked for it.
+    /// Smallest eigenvalue of the collocation operator, where the method asked for it; of geometric
+    /// interpolation, the smallest met on the way.
     pub smallest_eigenvalue: Option<f64>,
     /// Moves of control points made and spared, where the method spares any.
     pub updates: Option<UpdateCounts>,
     /// What local PIA left aside; `None` where all points took part.
     pub local: Option<LocalReport>,
+    /// How the foot points of geometric interpolation fared.
+    pub foot_points: Option<FootPointReport>,
     /// Residuals step by step.
     pub history: Vec<HistoryEntry>,
 }

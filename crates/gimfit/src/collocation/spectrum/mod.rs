@@ -134,17 +134,21 @@ pub fn smallest_eigenvalue(factors: &Factorization) -> EigenvalueBounds {
 }
 
 /// What one step of inverse iteration multiplies the entries of a vector by.
-struct Quotients {
-    least: f64,
-    most: f64,
+pub(super) struct Quotients {
+    pub(super) least: f64,
+    pub(super) most: f64,
     /// Where `most` is met.
-    place: usize,
+    pub(super) place: usize,
     /// Of the norms.
-    mean: f64,
+    pub(super) mean: f64,
 }
 
 /// Replaces `x`, which is positive, by `|A^-1 S x|`, scaled; `None` once numbers run out.
-fn inverse_step(factors: &Factorization, x: &mut [f64], work: &mut [f64]) -> Option<Quotients> {
+pub(super) fn inverse_step(
+    factors: &Factorization,
+    x: &mut [f64],
+    work: &mut [f64],
+) -> Option<Quotients> {
     let sign = |j: usize| if j.is_multiple_of(2) { 1.0 } else { -1.0 };
     for (j, (w, x)) in work.iter_mut().zip(&*x).enumerate() {
         *w = sign(j) * x;

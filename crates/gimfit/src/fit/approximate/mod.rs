@@ -230,6 +230,7 @@ pub fn approximate_curve_observed<'a>(
     let run = RunReport {
         updates: None,
         local: None,
+        foot_points: None,
         method: "approximation",
         choices,
         iterations: rounds,
