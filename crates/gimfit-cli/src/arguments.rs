@@ -11,6 +11,7 @@ use gimfit::Duplicates;
 use gimfit_io::grids::parse_shape;
 use gimfit_io::points::{ColumnChoice, DecimalMark, Delimiter, FormatChoice, PartChoice};
 use std::convert::Infallible;
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -250,6 +251,11 @@ pub(crate) struct IterationArguments {
     #[arg(long, value_enum, value_name = "START", help_heading = "Iteration")]
     pub(crate) foot_points: Option<FootPointStart>,
 
+    /// Points of a curve whose control points move, such as 10-20,35, counted from 1; the others stay
+    /// where they start. Goes with every method
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::positions, help_heading = "Iteration")]
+    pub(crate) only: Vec<RangeInclusive<usize>>,
+
     /// Most iterations
     #[arg(long, default_value_t = 1000, value_name = "N", help_heading = "Iteration")]
     pub(crate) iterations: usize,
@@ -443,6 +449,10 @@ pub(crate) enum MethodChoice {
     Preconditioned,
     /// Plain steps from the foot points of the data, in place of fixed parameters
     Geometric,
+    /// Plain, of the points of --only alone
+    Local,
+    /// Plain, but points that are done no longer move
+    Adaptive,
 }
 
 #[derive(Debug, Args)]

@@ -2,12 +2,13 @@
 
 use crate::arguments::{FootPointStart, IterationArguments, MethodChoice};
 use crate::{input, values};
-use anyhow::{anyhow, ensure};
+use anyhow::{anyhow, bail, ensure};
 use gimfit::{IterationWeight, Method};
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 /// The method of `--method`, `--bandwidth`, `--memory` and `--foot-points`.
-pub(crate) fn method(arguments: &IterationArguments) -> anyhow::Result<Method> {
+pub(crate) fn method(arguments: &IterationArguments, of_curves: bool) -> anyhow::Result<Method> {
     let IterationArguments { method: choice, bandwidth, memory, foot_points, .. } = *arguments;
     ensure!(
         foot_points.is_none() || choice == MethodChoice::Geometric,
@@ -20,6 +21,14 @@ pub(crate) fn method(arguments: &IterationArguments) -> anyhow::Result<Method> {
     ensure!(
         bandwidth.is_none() || choice == MethodChoice::Preconditioned,
         "--bandwidth belongs to --method preconditioned"
+    );
+    ensure!(
+        arguments.only.is_empty() || of_curves,
+        "--only is for curves: of a grid or a triangle all points take part"
+    );
+    ensure!(
+        of_curves || choice != MethodChoice::Local,
+        "--method local is for curves: of a grid or a triangle all points take part"
     );
     Ok(match choice {
         MethodChoice::Auto => Method::Auto,
@@ -34,7 +43,29 @@ pub(crate) fn method(arguments: &IterationArguments) -> anyhow::Result<Method> {
             Method::Geometric { global_start: foot_points == Some(FootPointStart::Global) }
         }
         MethodChoice::Preconditioned => Method::Preconditioned { half_bandwidth: bandwidth },
+        MethodChoice::Local => Method::Local,
+        MethodChoice::Adaptive => Method::Adaptive,
     })
+}
+
+/// The points of `--only`, from 0, of a file of `points` points.
+pub(crate) fn only(
+    arguments: &IterationArguments,
+    points: usize,
+    source: &str,
+) -> anyhow::Result<Option<Vec<usize>>> {
+    let ranges = &arguments.only;
+    if ranges.is_empty() {
+        ensure!(
+            arguments.method != MethodChoice::Local,
+            "--method local needs --only, the points whose control points are to move"
+        );
+        return Ok(None);
+    }
+    if let Some(beyond) = ranges.iter().map(RangeInclusive::end).find(|&&last| last > points) {
+        bail!("{source}: --only names point {beyond}, but there are {points} points");
+    }
+    Ok(Some(ranges.iter().flat_map(|range| range.start() - 1..*range.end()).collect()))
 }
 
 /// The weight of `--weight`: auto, lemma2, a number, or a file.

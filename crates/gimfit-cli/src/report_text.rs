@@ -61,6 +61,21 @@ impl Lines {
             "deviation",
             &format!("largest {:.3e} at {}", account.max_deviation, account.max_deviation_place),
         );
+        if let (Some(local), Some(place)) = (run.local, &account.outside_place) {
+            self.add(
+                "outside",
+                &format!(
+                    "largest residual of the points left aside {:.3e} at {place}",
+                    local.outside_max_residual
+                ),
+            );
+        }
+        if let Some(moves) = run.updates {
+            self.add(
+                "moves",
+                &format!("{} of control points made, {} saved", moves.done, moves.saved),
+            );
+        }
         if let Some(smallest) = run.smallest_eigenvalue {
             self.add("spectrum", &format!("smallest eigenvalue {smallest:.6e}"));
         }
@@ -83,6 +98,8 @@ impl Lines {
 pub(crate) struct RunLines<'a> {
     pub(crate) run: &'a RunReport,
     pub(crate) max_residual_place: String,
+    /// Where the points that local PIA left aside are met worst.
+    pub(crate) outside_place: Option<String>,
     pub(crate) max_deviation: f64,
     pub(crate) max_deviation_place: String,
     pub(crate) seconds: Option<Seconds>,

@@ -3,6 +3,7 @@
 use crate::evaluate::SampleCount;
 use gimfit::knots::MAX_DEGREE;
 use gimfit_io::grids::parse_shape;
+use std::ops::RangeInclusive;
 use std::str::FromStr;
 
 /// Most samples of a curve: beyond, the table would not fit into memory.
@@ -53,6 +54,21 @@ pub(crate) fn derivatives(text: &str) -> Result<usize, String> {
             "{error}, the highest degree: derivatives of polynomials above their degree are zero"
         )
     })
+}
+
+/// A position counted from 1, or a range of them such as 10-20.
+pub(crate) fn positions(text: &str) -> Result<RangeInclusive<usize>, String> {
+    let count = |part: &str| match part.trim().parse() {
+        Ok(0) => Err("points count from 1".to_owned()),
+        Ok(count) => Ok(count),
+        Err(_) => Err(format!("\"{text}\" is neither a number nor a range such as 10-20")),
+    };
+    let (first, last) = text.split_once('-').unwrap_or((text, text));
+    let (first, last) = (count(first)?, count(last)?);
+    if first > last {
+        return Err(format!("the range runs from {first} back to {last}; swap them"));
+    }
+    Ok(first..=last)
 }
 
 fn within(text: &str, least: usize, most: usize) -> Result<usize, String> {

@@ -6,11 +6,13 @@ use crate::arguments::{
 };
 use crate::basis::{basis, only_b_splines};
 use crate::input;
-use crate::method::{ensure_kept_fits_fit, method, weight, weight_file};
+use crate::method::{ensure_kept_fits_fit, method, only, weight, weight_file};
 use anyhow::{bail, ensure};
 use gimfit::basis::BlendingBasis;
 use gimfit::knots::MAX_DEGREE;
-use gimfit::{ApproximationOptions, Convexity, CurveOptions, KnotPlacement, Parameterization};
+use gimfit::{
+    ApproximationOptions, Convexity, CurveOptions, KnotPlacement, Method, Parameterization,
+};
 use gimfit_io::points::PointTable;
 use std::path::Path;
 use std::sync::Arc;
@@ -34,9 +36,10 @@ pub(super) enum Recipe {
 
 impl Plan {
     pub(super) fn new(arguments: &CurveArguments) -> anyhow::Result<Self> {
-        let method = method(&arguments.iteration)?;
+        let method = method(&arguments.iteration, true)?;
         let weight = weight(&arguments.iteration.weight)?;
         let Shape { table, options, basis } = shape(&arguments.input, &arguments.shape)?;
+        let local = only(&arguments.iteration, table.rows(), &table.source)?;
         let numbers = table.coordinates.len();
         ensure_kept_fits_fit(
             &arguments.iteration.keep,
@@ -48,17 +51,26 @@ impl Plan {
             let chosen = arguments.convex.is_some();
             only_b_splines("--convex", chosen, "other bases are fitted as they are")?;
         }
+        if local.is_some() || matches!(method, Method::Adaptive) {
+            let what = if local.is_some() { "--only" } else { "--method adaptive" };
+            only_b_splines(what, basis.is_some(), "other bases move all points in every step")?;
+        }
         let approximation = &arguments.approximation;
         let recipe = match (approximation.options(options.degree, options.closed)?, basis) {
             (Some(options), _) => Recipe::Approximate(options),
             (None, Some(basis)) => Recipe::Blend(basis),
             (None, None) => Recipe::Interpolate,
         };
+        ensure!(
+            local.is_none() || matches!(recipe, Recipe::Interpolate),
+            "--only goes with fits through the points, not with --tolerance, --rms or \
+             --control-points"
+        );
         let options = CurveOptions {
             convexity: convexity(arguments)?,
             method,
             weight,
-            local: None,
+            local,
             iterations: arguments.iteration.iterations,
             residual: arguments.iteration.residual,
             keep: arguments.iteration.keep.clone(),

@@ -31,7 +31,7 @@ impl Plan {
             "--convex keeps the turns of planar polygons; a net of control points has none: fit \
              its rows or columns one by one with gimfit curve"
         );
-        let method = method(&arguments.iteration)?;
+        let method = method(&arguments.iteration, false)?;
         let weight = surface_weight(&arguments.iteration.weight)?;
         ensure!(
             arguments.per_direction || matches!(weight, SurfaceWeight::Both(_)),

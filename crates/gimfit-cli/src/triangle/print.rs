@@ -34,6 +34,7 @@ pub(super) fn report(job: &Job<'_>, written: &[String]) -> String {
     lines.run(&RunLines {
         run: &report.run,
         max_residual_place: place(report.max_residual_index),
+        outside_place: None,
         max_deviation: report.max_deviation,
         max_deviation_place: place(report.max_deviation_index),
         seconds: job.document.report.as_ref().and_then(|report| report.run.seconds),

@@ -72,6 +72,26 @@ impl FootPointData {
     }
 }
 
+/// Moves of single control points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct MovesData {
+    /// Moves made.
+    pub made: usize,
+    /// Moves that plain PIA would have made on top in as many steps.
+    pub saved: usize,
+}
+
+/// What local PIA left aside.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct LocalData {
+    /// Points that took part.
+    pub points: usize,
+    /// Largest norm of a difference vector of all others.
+    pub outside_max_residual: f64,
+    /// The point where it is met, counted from 0 among those fitted.
+    pub outside_max_residual_index: usize,
+}
+
 /// The account of a run. Lengths are in the unit of the data.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunData {
@@ -98,6 +118,12 @@ pub struct RunData {
     /// How the foot points of geometric interpolation fared; absent for other methods.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub foot_points: Option<FootPointData>,
+    /// Moves of control points made and saved, where the method saves any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moves: Option<MovesData>,
+    /// The points that took part, where not all did.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub local: Option<LocalData>,
     /// Measured times.
     #[serde(default)]
     pub seconds: Option<Seconds>,
@@ -121,6 +147,12 @@ impl RunData {
             rms_residual: run.rms_residual,
             smallest_eigenvalue: run.smallest_eigenvalue,
             foot_points: run.foot_points.as_ref().map(FootPointData::of),
+            moves: run.updates.map(|moves| MovesData { made: moves.done, saved: moves.saved }),
+            local: run.local.map(|local| LocalData {
+                points: local.points,
+                outside_max_residual: local.outside_max_residual,
+                outside_max_residual_index: local.outside_max_residual_index,
+            }),
             seconds: None,
             history: run.history.iter().map(HistoryRow::of).collect(),
         }
