@@ -7,7 +7,12 @@ use gimfit::{ApproximationOptions, Corners, Goal};
 use std::str::FromStr;
 
 /// What interpolation alone has.
-const OF_INTERPOLATION: [&str; 14] = [
+const OF_INTERPOLATION: [&str; 19] = [
+    "only",
+    "memory",
+    "foot_points",
+    "rational_weights",
+    "convex_threshold",
     "convex",
     "basis",
     "parameters",
