@@ -4,6 +4,7 @@
 pub mod clock;
 pub mod data;
 pub mod memory;
+pub mod nearest;
 pub mod report;
 pub mod surface;
 pub mod workload;

@@ -6,8 +6,8 @@
 use anyhow::{bail, ensure};
 use clap::Parser;
 use gimfit_bench::report::{self, PEER};
-use gimfit_bench::surface;
 use gimfit_bench::workload::Workload;
+use gimfit_bench::{nearest, surface};
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -19,13 +19,14 @@ struct Arguments {
     /// Print the cases
     #[arg(long, exclusive = true)]
     list: bool,
-    /// W1, W2 or W3, then gimfit.interpolate, then the number of points (of W3: in a row)
+    /// W1, W2 or W3, then gimfit.interpolate, then the number of points (of W3: in a row); or W7,
+    /// gimfit.nearest, and the number of queries
     #[arg(value_names = ["WORKLOAD", "PEER", "SIZE"], num_args = 3)]
     case: Vec<String>,
     /// How long to repeat the case; otherwise $BENCH_SECONDS, or 3
     #[arg(long)]
     seconds: Option<f64>,
-    /// File that receives the control points as raw little-endian doubles
+    /// File that receives the control points (of W7: the distances) as raw little-endian doubles
     #[arg(long, value_name = "FILE")]
     control_points: Option<PathBuf>,
 }
@@ -38,19 +39,26 @@ fn main() -> anyhow::Result<()> {
             writeln!(output, "{}\t{PEER}\t{SIZES}\t{}", workload.name(), workload.note())?;
         }
         writeln!(output, "{}\t{PEER}\t{}\t{}", surface::NAME, surface::SIZES, surface::NOTE)?;
+        let (name, peer) = (nearest::NAME, nearest::PEER);
+        writeln!(output, "{name}\t{peer}\t{}\t{}", nearest::SIZES, nearest::NOTE)?;
         return Ok(());
     }
     let [workload, peer, size] = arguments.case.as_slice() else {
         bail!("a case is <workload> {PEER} <size>; --list prints them");
     };
-    ensure!(peer == PEER, "there is no peer {peer}; ours is {PEER}");
+    let expected = if workload == nearest::NAME { nearest::PEER } else { PEER };
+    ensure!(peer == expected, "there is no peer {peer}; ours is {expected}");
     let control_points = arguments.control_points.as_deref();
     let seconds = match (arguments.seconds, std::env::var("BENCH_SECONDS")) {
         (Some(seconds), _) => seconds,
         (None, Ok(text)) => text.parse()?,
         (None, Err(_)) => 3.0,
     };
-    let result = report::run(workload, size, seconds, control_points)?;
+    let result = if workload == nearest::NAME {
+        nearest::run(size, seconds, control_points)?
+    } else {
+        report::run(workload, size, seconds, control_points)?
+    };
     writeln!(output, "RESULT {result}")?;
     Ok(())
 }
