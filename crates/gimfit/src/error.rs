@@ -93,6 +93,23 @@ pub enum Error {
         /// How many more there are.
         others: usize,
     },
+    /// A point moved or inserted onto its neighbour.
+    ///
+    /// ```
+    /// # use gimfit::{CurveOptions, EditableCurve, Error};
+    /// let points = [[0.0, 0.0], [1.0, 2.0], [3.0, 3.0], [4.0, 1.0]];
+    /// let mut curve = EditableCurve::new(&points, &CurveOptions::default())?;
+    /// let error = curve.move_point(1, &[3.0, 3.0]).unwrap_err();
+    /// assert_eq!(error, Error::MeetsNeighbour { neighbour: 2 });
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[error(
+        "the point would coincide with its neighbour, point {neighbour}; give it another place, or remove one of the two"
+    )]
+    MeetsNeighbour {
+        /// Position of the neighbour, from 0, before the edit.
+        neighbour: usize,
+    },
     /// Neighbours so close, against the whole length, that doubles cannot hold two parameters.
     #[error(
         "points {first} and {second} lie too close together, against the length of the whole curve, to have distinct parameters; drop one of them, or use uniform parameters"

@@ -17,6 +17,7 @@ mod rational_net;
 mod scattered;
 mod spectrum;
 mod watch;
+mod window;
 
 pub use banded::BandedCollocation;
 pub(crate) use build::wrap;
@@ -35,6 +36,7 @@ pub use spectrum::{
     smallest_eigenvalue_of,
 };
 pub(crate) use watch::EigenvalueWatch;
+pub(crate) use window::{LocalKnots, WindowCollocation, surroundings};
 
 /// What an iteration needs of `A = [B_i(t_j)]`, whatever the geometry behind it. Vectors are flat
 /// arrays of shape (points, dimension) and (control points, dimension), row-major.

@@ -381,7 +381,8 @@ pub(super) fn spacing_ratio(values: &[f64], period: Option<f64>) -> f64 {
     if longest > 0.0 { longest / shortest } else { 1.0 }
 }
 
-fn unscale(curve: Curve, scale: PowerOfTwoScale) -> Result<Curve, Error> {
+/// Brings a curve back into the unit of the data.
+pub(super) fn unscale(curve: Curve, scale: PowerOfTwoScale) -> Result<Curve, Error> {
     if scale.is_identity() {
         return Ok(curve);
     }

@@ -7,6 +7,7 @@ mod convex;
 mod curve;
 mod diagnose;
 mod diagnose_surface;
+mod edit;
 mod geometric;
 mod intervals;
 mod keep;
@@ -31,6 +32,7 @@ pub use blending_surface::{
 pub use curve::{CurveFit, fit_curve, fit_curve_observed, interpolate};
 pub use diagnose::{CurveDiagnosis, diagnose_blending_curve, diagnose_curve};
 pub use diagnose_surface::{SurfaceDiagnosis, diagnose_surface};
+pub use edit::{EditReport, EditableCurve};
 pub use keep::KeptFit;
 pub use options::{
     BlendingOptions, BlendingSurfaceOptions, Convexity, CurveOptions, IterationWeight, Method,

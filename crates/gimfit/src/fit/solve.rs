@@ -11,9 +11,9 @@ use crate::points::{Extent, Points, PowerOfTwoScale};
 use crate::report::RunReport;
 
 /// Share of the extent that a residual may keep by default.
-const DEFAULT_RESIDUAL: f64 = 1e-12;
+pub(super) const DEFAULT_RESIDUAL: f64 = 1e-12;
 /// Share of the extent that rounding may take where no residual was demanded.
-const MOST_ROUNDING: f64 = 1e-9;
+pub(super) const MOST_ROUNDING: f64 = 1e-9;
 /// Control points this many extents, and this many times the data, away from the origin are no fit
 /// that anybody wants.
 const WILD_SWING: f64 = 1e3;

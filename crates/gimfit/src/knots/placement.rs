@@ -224,7 +224,8 @@ fn keep_from_falling(knots: &mut [f64]) {
     }
 }
 
-fn mean(values: &[f64]) -> f64 {
+/// An averaged knot, from the `p` parameters it is the mean of.
+pub(crate) fn mean(values: &[f64]) -> f64 {
     mean_of(values.len(), |k| values[k])
 }
 
