@@ -2,6 +2,7 @@
 //! file, are told apart here.
 
 use crate::curve::ApproximationArguments;
+use crate::curve::edit::EditArguments;
 use crate::evaluate::SampleCount;
 use crate::surface::SurfaceArguments;
 use crate::triangle::TriangleArguments;
@@ -29,6 +30,8 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     /// Fit a curve through the points of a file
     Curve(Box<CurveArguments>),
+    /// Move, insert and remove single points of a fitted curve, without a fit of all points
+    Edit(Box<EditArguments>),
     /// Fit a surface through the points of a grid
     Surface(Box<SurfaceArguments>),
     /// Fit a triangular patch through a triangular array of points

@@ -42,6 +42,7 @@ fn main() -> ExitCode {
     let arguments = Arguments::try_parse().unwrap_or_else(|error| output::usage(&error));
     let result = match arguments.command {
         Command::Curve(arguments) => curve::run(&arguments),
+        Command::Edit(arguments) => curve::edit::run(&arguments),
         Command::Surface(arguments) => surface::run(&arguments),
         Command::Diagnose(arguments) => diagnose::run(&arguments),
         Command::Triangle(arguments) => triangle::run(&arguments),

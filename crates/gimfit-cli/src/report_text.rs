@@ -116,7 +116,8 @@ fn length(x: f64) -> String {
     if (1e-4..1e9).contains(&x) { format!("{x:.6}") } else { format!("{x:.6e}") }
 }
 
-fn time(seconds: f64) -> String {
+/// A time in a unit that suits it.
+pub(crate) fn time(seconds: f64) -> String {
     if seconds < 1e-3 {
         format!("{:.0} us", seconds * 1e6)
     } else if seconds < 1.0 {

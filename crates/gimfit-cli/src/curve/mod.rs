@@ -2,6 +2,7 @@
 
 mod approximation;
 mod draw;
+pub(crate) mod edit;
 mod explain_fit;
 mod plan;
 mod print;
@@ -62,6 +63,8 @@ struct Job<'a> {
     samples: Option<usize>,
     seconds: Seconds,
     document: Document,
+    /// What each edit did, a line each.
+    edits: Vec<String>,
 }
 
 impl<'a> Job<'a> {
@@ -80,7 +83,7 @@ impl<'a> Job<'a> {
             report.run.choices.splice(0..0, notes);
             report.run.seconds = Some(seconds);
         }
-        Self { table, fit, basis, samples, seconds, document }
+        Self { table, fit, basis, samples, seconds, document, edits: Vec::new() }
     }
 }
 

@@ -190,17 +190,26 @@ fn convexity(arguments: &CurveArguments) -> anyhow::Result<Option<Convexity>> {
 }
 
 /// The files to read, by the argument that names them.
-pub(super) fn inputs(arguments: &CurveArguments) -> Vec<(&str, &Path)> {
-    let mut inputs = vec![("POINTS", arguments.input.points.as_path())];
-    if let Some(RuleOrFile::File(path)) = &arguments.shape.parameters {
+pub(super) fn shape_inputs<'a>(
+    input: &'a InputArguments,
+    shape: &'a ShapeArguments,
+) -> Vec<(&'a str, &'a Path)> {
+    let mut inputs = vec![("POINTS", input.points.as_path())];
+    if let Some(RuleOrFile::File(path)) = &shape.parameters {
         inputs.push(("--parameters", path));
     }
-    if let Some(RuleOrFile::File(path)) = &arguments.shape.knots {
+    if let Some(RuleOrFile::File(path)) = &shape.knots {
         inputs.push(("--knots", path));
     }
-    if let Some(path) = &arguments.shape.rational_weights {
+    if let Some(path) = &shape.rational_weights {
         inputs.push(("--rational-weights", path));
     }
+    inputs
+}
+
+/// The same of a fit.
+pub(super) fn inputs(arguments: &CurveArguments) -> Vec<(&str, &Path)> {
+    let mut inputs = shape_inputs(&arguments.input, &arguments.shape);
     if let Some(path) = weight_file(&arguments.iteration.weight) {
         inputs.push(("--weight", path));
     }

@@ -34,6 +34,7 @@ pub(super) fn report(job: &Job<'_>, written: &[String]) -> String {
             }
         ),
     );
+    lines.add_all("edits", &job.edits);
     if let Some(shape) = &report.shape {
         lines.add("shape", &shape_line(shape));
     }

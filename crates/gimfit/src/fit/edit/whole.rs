@@ -180,13 +180,19 @@ impl EditableCurve {
             largest_deviation(&curve, view, &values, &residuals)?
         };
         let Account { edits, iterations, termination, .. } = self.account;
+        let bound = self.bound();
+        let within = if bound.is_finite() {
+            format!("no control point is farther than {bound:.1e} from the fit of all points")
+        } else {
+            "with parameters this close together, how far control points are from the fit of all \
+             points has no bound"
+                .into()
+        };
         let (max_residual, rms_residual) = (scale.undo(norms.max), scale.undo(norms.rms));
         let run = RunReport {
             method: "local",
             choices: vec![format!(
-                "edits: {edits}, each by local PIA of the points near it; no control point is \
-                 farther than {:e} from the fit of all points",
-                self.bound()
+                "edits: {edits}, each by local PIA of the points near it; {within}"
             )],
             iterations,
             iteration_returned: iterations,
