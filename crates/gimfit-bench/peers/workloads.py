@@ -74,6 +74,11 @@ def make(workload, count):
         for kind, values in zip("uvstp", (u, v, not_a_knot(u), not_a_knot(v), points)):
             save(f"{name}.{kind}", values)
         return
+    if workload == "W10":
+        points = open_points(count)
+        save(name + ".u", chord_lengths(points))
+        save(name + ".p", points)
+        return
     if workload == "W1":
         points = open_points(count)
         parameters = chord_lengths(points)

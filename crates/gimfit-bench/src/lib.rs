@@ -3,6 +3,7 @@
 
 pub mod clock;
 pub mod data;
+pub mod edit;
 pub mod memory;
 pub mod nearest;
 pub mod report;

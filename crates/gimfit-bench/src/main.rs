@@ -7,7 +7,7 @@ use anyhow::{bail, ensure};
 use clap::Parser;
 use gimfit_bench::report::{self, PEER};
 use gimfit_bench::workload::Workload;
-use gimfit_bench::{nearest, surface};
+use gimfit_bench::{edit, nearest, surface};
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -20,7 +20,7 @@ struct Arguments {
     #[arg(long, exclusive = true)]
     list: bool,
     /// W1, W2 or W3, then gimfit.interpolate, then the number of points (of W3: in a row); or W7,
-    /// gimfit.nearest, and the number of queries
+    /// gimfit.nearest, and the number of queries; or W10, gimfit.edit, and the number of points
     #[arg(value_names = ["WORKLOAD", "PEER", "SIZE"], num_args = 3)]
     case: Vec<String>,
     /// How long to repeat the case; otherwise $BENCH_SECONDS, or 3
@@ -41,12 +41,18 @@ fn main() -> anyhow::Result<()> {
         writeln!(output, "{}\t{PEER}\t{}\t{}", surface::NAME, surface::SIZES, surface::NOTE)?;
         let (name, peer) = (nearest::NAME, nearest::PEER);
         writeln!(output, "{name}\t{peer}\t{}\t{}", nearest::SIZES, nearest::NOTE)?;
+        let (name, peer) = (edit::NAME, edit::PEER);
+        writeln!(output, "{name}\t{peer}\t{}\t{}", edit::SIZES, edit::NOTE)?;
         return Ok(());
     }
     let [workload, peer, size] = arguments.case.as_slice() else {
         bail!("a case is <workload> {PEER} <size>; --list prints them");
     };
-    let expected = if workload == nearest::NAME { nearest::PEER } else { PEER };
+    let expected = match workload.as_str() {
+        nearest::NAME => nearest::PEER,
+        edit::NAME => edit::PEER,
+        _ => PEER,
+    };
     ensure!(peer == expected, "there is no peer {peer}; ours is {expected}");
     let control_points = arguments.control_points.as_deref();
     let seconds = match (arguments.seconds, std::env::var("BENCH_SECONDS")) {
@@ -54,10 +60,10 @@ fn main() -> anyhow::Result<()> {
         (None, Ok(text)) => text.parse()?,
         (None, Err(_)) => 3.0,
     };
-    let result = if workload == nearest::NAME {
-        nearest::run(size, seconds, control_points)?
-    } else {
-        report::run(workload, size, seconds, control_points)?
+    let result = match workload.as_str() {
+        nearest::NAME => nearest::run(size, seconds, control_points)?,
+        edit::NAME => edit::run(size, seconds, control_points)?,
+        _ => report::run(workload, size, seconds, control_points)?,
     };
     writeln!(output, "RESULT {result}")?;
     Ok(())

@@ -31,13 +31,10 @@ fn edits_are_done_in_order_and_give_the_fit_of_the_edited_points() {
 
     // The same points at the same parameters, fitted as a whole.
     let found: Value = serde_json::from_str(&place.read("out.json")).unwrap();
-    let before = document(&place, &format!("curve {file} -q -o -"));
-    let evaluated = place.run(&format!("curve {file} -q --json --geometry")).code(0).json();
-    assert_eq!(before["parameters"], evaluated["parameters"]);
     let t: Vec<f64> = serde_json::from_value(found["parameters"].clone()).unwrap();
     assert_eq!(t.len(), 205);
-    let vectors = found["report"]["max_residual"].as_f64().unwrap();
-    assert!(vectors < 1e-12, "{vectors}");
+    let residual = found["report"]["max_residual"].as_f64().unwrap();
+    assert!(residual < 1e-12, "{residual}");
     let text = t.iter().map(|t| format!("{t:?}\n")).collect::<String>();
     place.write("t.txt", text);
     let read = std::fs::read_to_string(&file).unwrap();
@@ -57,8 +54,10 @@ fn edits_are_done_in_order_and_give_the_fit_of_the_edited_points() {
     let csv: String = points.iter().map(|p| format!("{:?},{:?}\n", p[0], p[1])).collect();
     place.write("edited.csv", format!("x,y\n{csv}"));
     let whole = document(&place, "curve edited.csv --parameters t.txt -q -o -");
-    let (ours, theirs) = (rows(&found["control_points"]), rows(&whole["control_points"]));
-    assert_eq!(found["knots"], whole["knots"]);
+    let (ours, theirs) =
+        (rows(&found["geometry"]["control_points"]), rows(&whole["geometry"]["control_points"]));
+    assert_eq!(found["geometry"]["knots"], whole["geometry"]["knots"]);
+    assert_eq!(ours.len(), theirs.len());
     for (a, b) in ours.iter().zip(&theirs) {
         assert!((a[0] - b[0]).hypot(a[1] - b[1]) < 1e-12, "{a:?} {b:?}");
     }
@@ -95,7 +94,7 @@ fn wrong_edits_name_the_option_and_write_nothing() {
         ("--remove 1", "3 points would be left"),
         ("--move 2=2,0", "its neighbour, point 3"),
         ("--insert 2=1,1", "its neighbour, point 2"),
-        ("--insert 3=1.0000000000000002,1", "too close to a neighbour"),
+        ("--insert 4=2,1e-30", "too close to a neighbour"),
     ] {
         place.run(&format!("edit few.csv {rest}")).code(2).says(&[words, rest]);
     }

@@ -164,7 +164,9 @@ fn points_of_the_curve_are_found_from_nearby() {
     let mut random = Random::new(8);
     for degree in [1, 2, 3, 6] {
         let mut curve = EditableCurve::new(&walk(9, 1500, 2), &options(degree)).unwrap();
-        (0..30).for_each(|_| drop(edit(&mut curve, &mut random)));
+        for _ in 0..30 {
+            edit(&mut curve, &mut random);
+        }
         let whole = curve.fit().unwrap();
         let (start, end) = curve.domain();
         let mut parameters = whole.parameters.clone();
