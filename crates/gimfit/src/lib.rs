@@ -99,6 +99,7 @@ mod pages {
         Closed: "docs/methods/closed.md",
         Convex: "docs/methods/convex.md",
         Diagnose: "docs/methods/diagnose.md",
+        Editing: "docs/methods/editing.md",
         FootPoints: "docs/methods/foot-points.md",
         Geometric: "docs/methods/geometric.md",
         GaussSeidel: "docs/methods/gauss-seidel.md",
