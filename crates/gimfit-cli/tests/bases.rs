@@ -98,6 +98,32 @@ fn options_that_contradict_a_basis_are_refused() {
 }
 
 #[test]
+fn weights_make_a_basis_rational_in_the_document_too() {
+    let c = std::f64::consts::FRAC_1_SQRT_2;
+    let place = Place::with("arc.csv", format!("x,y\n1,0\n{c},{c}\n0,1\n"));
+    place.write("weights.txt", format!("2 {} 2", 2.0 * c));
+    for basis in ["bernstein", "said-ball"] {
+        let line =
+            format!("curve arc.csv --basis {basis} --rational-weights weights.txt -o arc.json");
+        let out = place.run(&line).code(0).out;
+        assert!(out.contains(&format!("rational {basis} of degree 2")), "{out}");
+        let document: Value = serde_json::from_str(&place.read("arc.json")).unwrap();
+        assert_eq!(document["blending"]["basis"], format!("rational {basis}"));
+        assert_eq!(document["blending"]["rational_weights"].as_array().unwrap().len(), 3);
+        assert_eq!(document["geometry"]["weights"].as_array().unwrap().len(), 3);
+        for line in place.run("evaluate arc.json --samples 9").code(0).out.lines().skip(1) {
+            let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+            assert!((cells[1].hypot(cells[2]) - 1.0).abs() < 1e-12, "{line}");
+        }
+    }
+    place.write("weights.txt", "1 -1 1");
+    let line = "curve arc.csv --basis bernstein --rational-weights weights.txt";
+    place.run(line).code(2).says(&["rational weight 1"]);
+    place.write("weights.txt", "1 1");
+    place.run(line).code(2).says(&["2 rational weights given, 3 expected"]);
+}
+
+#[test]
 fn surfaces_take_a_basis_in_each_direction() {
     let place = Place::new();
     let mut grid = String::from("row,column,x,y,z\n");

@@ -24,8 +24,18 @@ fn weights_of_a_file_make_a_rational_curve() {
     let ran = place.run("curve wave.csv --rational-weights bad.txt").code(2);
     ran.says(&["rational weight 1", "positive"]);
     place.run("curve wave.csv --rational-weights none.txt").code(2).says(&["none.txt"]);
-    let ran = place.run("curve wave.csv --rational-weights w.txt --basis bernstein").code(2);
-    ran.says(&["--rational-weights", "bezier"]);
+    // The Bernstein basis, by either way, makes the same rational Bezier curve.
+    let both = ["--basis bernstein", "--knots bezier --parameters uniform"].map(|way| {
+        let line = format!("curve wave.csv --rational-weights w.txt {way} -o way.json -q");
+        place.run(&line).code(0);
+        let geometry = place.document("way.json")["geometry"].clone();
+        let rows = geometry["control_points"].as_array().unwrap().iter().flat_map(numbers);
+        (rows.collect::<Vec<f64>>(), numbers(&geometry["weights"]))
+    });
+    let [(first, weights), (second, others)] = &both;
+    assert!(first.iter().zip(second).all(|(a, b)| (a - b).abs() < 1e-8 * (1.0 + b.abs())));
+    let ratio = weights[0] / others[0];
+    assert!(weights.iter().zip(others).all(|(a, b)| (a / b - ratio).abs() < 1e-12));
 }
 
 #[test]

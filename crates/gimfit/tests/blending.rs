@@ -248,6 +248,44 @@ fn a_rational_quadratic_through_a_quarter_circle_is_the_circle() {
 }
 
 #[test]
+fn the_bezier_form_of_a_rational_fit_is_the_same_curve_and_surface() {
+    for degree in [2, 4, 7] {
+        let points = random_points(degree + 1, 3, 21);
+        let weights: Vec<f64> = (0..=degree).map(|i| 0.4 + ((3 * i) % 5) as f64).collect();
+        for (basis, _) in named(degree) {
+            let rational = Rational::new(Arc::clone(&basis), weights.clone()).unwrap();
+            let rational: Arc<dyn BlendingBasis> = Arc::new(rational);
+            let options = BlendingOptions { keep: vec![1], ..with(Method::Pia, 4) };
+            let found = fit(&points, &rational, &options);
+            let bezier = found.to_bezier().unwrap();
+            assert!(bezier.curve.rational_weights().is_some());
+            let member = bezier.member(1).unwrap();
+            let expected = found.report.run.history[1].max_residual;
+            assert!((member.report.run.max_residual - expected).abs() < 1e-12);
+            let grid = random_points((degree + 1) * (degree + 1), 2, 22).concat();
+            let grid = GridView::new([degree + 1; 2], 2, &grid).unwrap();
+            let options =
+                BlendingSurfaceOptions { method: Method::Pia, iterations: 3, ..Default::default() };
+            let bases = [Arc::clone(&rational), Arc::clone(&basis)];
+            let surface = fit_blending_surface(grid, bases, &options).unwrap();
+            let patch = surface.to_bezier().unwrap().surface;
+            for step in 0..=30 {
+                let t = f64::from(step) / 30.0;
+                let apart = |a: Vec<f64>, b: Vec<f64>| {
+                    a.iter().zip(&b).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()))
+                };
+                let (a, b) = (found.curve.evaluate(t).unwrap(), bezier.curve.evaluate(t).unwrap());
+                assert!(apart(a, b) < 1e-13, "{rational:?} at {t}");
+                let v = f64::from(step * step % 31) / 30.0;
+                let (a, b) =
+                    (surface.surface.evaluate(t, v).unwrap(), patch.evaluate(t, v).unwrap());
+                assert!(apart(a, b) < 1e-13, "{rational:?} at {t}, {v}");
+            }
+        }
+    }
+}
+
+#[test]
 fn what_a_method_rests_on_is_told_where_it_is_missing() {
     let points = random_points(11, 2, 4);
     let told = |basis: &Arc<dyn BlendingBasis>, method| {

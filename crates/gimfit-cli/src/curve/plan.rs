@@ -8,7 +8,7 @@ use crate::basis::{basis, only_b_splines};
 use crate::input;
 use crate::method::{ensure_kept_fits_fit, method, only, weight, weight_file};
 use anyhow::{bail, ensure};
-use gimfit::basis::BlendingBasis;
+use gimfit::basis::{BlendingBasis, Rational};
 use gimfit::knots::MAX_DEGREE;
 use gimfit::{
     ApproximationOptions, Convexity, CurveOptions, KnotPlacement, Method, Parameterization,
@@ -98,7 +98,8 @@ pub(crate) fn shape(input: &InputArguments, shape: &ShapeArguments) -> anyhow::R
     if shape.sort {
         table.sort_by_abscissa();
     }
-    let basis = blending(shape, &table)?;
+    let weights = rational_weights(shape, &table)?;
+    let basis = blending(shape, &table, weights.as_deref())?;
     let bezier = shape.knots == Some(RuleOrFile::Rule(KnotRule::Bezier));
     let default = CurveOptions::default().degree;
     let options = CurveOptions {
@@ -106,7 +107,7 @@ pub(crate) fn shape(input: &InputArguments, shape: &ShapeArguments) -> anyhow::R
         closed: shape.closed,
         parameterization: parameterization(shape, &mut table)?,
         knot_placement: shape.knots.as_ref().map(knot_placement).transpose()?,
-        rational_weights: rational_weights(shape, &table)?,
+        rational_weights: weights,
         duplicates: shape.duplicates.into(),
         ..CurveOptions::default()
     };
@@ -152,22 +153,21 @@ fn rational_weights(
 fn blending(
     shape: &ShapeArguments,
     table: &PointTable,
+    weights: Option<&[f64]>,
 ) -> anyhow::Result<Option<Arc<dyn BlendingBasis>>> {
     let basis = basis(shape.basis, table.rows(), "points", &table.source)?;
     if basis.is_some() {
         only_b_splines("--degree", shape.degree.is_some(), "the points give the degree")?;
         only_b_splines("--knots", shape.knots.is_some(), "other bases have none")?;
-        only_b_splines(
-            "--rational-weights",
-            shape.rational_weights.is_some(),
-            "--knots bezier makes a rational Bezier curve of them",
-        )?;
         only_b_splines("--closed", shape.closed, "other bases are open")?;
         only_b_splines(
             "--duplicates",
             shape.duplicates != DuplicatesChoice::Error,
             "with uniform parameters repeated points are fitted as they are",
         )?;
+    }
+    if let (Some(basis), Some(weights)) = (&basis, weights) {
+        return Ok(Some(Arc::new(Rational::new(Arc::clone(basis), weights.to_vec())?)));
     }
     Ok(basis)
 }

@@ -8,6 +8,7 @@ use super::table::{Entry, Part, Source, Table};
 use gimfit::Error;
 use gimfit::basis::{Bernstein, BlendingBasis, Dp, SaidBall, WangBall};
 use gimfit::collocation::DenseCollocation;
+use gimfit::fit::triangular_collocation;
 use gimfit::parameters::Parameters;
 
 /// A name, values, and how to make the basis of a degree.
@@ -37,6 +38,19 @@ pub(super) fn recompute() -> anyhow::Result<Table> {
         source: Source::Theory,
         entries: bernstein,
     }];
+    let mut triangular = Vec::new();
+    for degree in [2, 3, 4, 6] {
+        let law: f64 = (1..=degree).map(|k| k as f64 / degree as f64).product();
+        let found = smallest_eigenvalue(&triangular_collocation(degree)?)?;
+        let reference = (format!("{degree}!/{degree}^{degree} = {law:.6e}"), law);
+        triangular.push(Entry::known(format!("n={degree}"), reference, 1e-9, found));
+    }
+    parts.push(Part::Entries {
+        heading: "Bernstein basis of a triangle (Chen and Wang 2011): lambda_min at (i, j, k)/n"
+            .into(),
+        source: Source::Theory,
+        entries: triangular,
+    });
     let others: [Row; 3] = [
         ("Said-Ball basis", SAID_BALL, |n| Ok(Box::new(SaidBall::new(n)?))),
         ("Wang-Ball basis, which is not totally positive", WANG_BALL, |n| {

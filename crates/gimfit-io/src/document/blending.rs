@@ -9,8 +9,11 @@ use serde::{Deserialize, Serialize};
 /// The basis of a curve and its control points in it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BlendingData {
-    /// Its name: bernstein, wang-ball, said-ball or dp.
+    /// Its name: bernstein, wang-ball, said-ball or dp, after the word rational if it has weights.
     pub basis: String,
+    /// Weights of a rational basis, one per function; only their ratios count.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rational_weights: Option<Vec<f64>>,
     /// The control points.
     pub control_points: PointRows,
 }
@@ -21,6 +24,7 @@ impl BlendingData {
     pub fn of(curve: &BlendingCurve) -> Self {
         Self {
             basis: curve.basis().name().to_owned(),
+            rational_weights: curve.basis().rational_weights().map(<[f64]>::to_vec),
             control_points: curve.control_points().into(),
         }
     }

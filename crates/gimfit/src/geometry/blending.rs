@@ -73,10 +73,11 @@ impl BlendingCurve {
         Ok(point)
     }
 
-    /// The same curve in Bezier form: a B-spline curve of one piece, which any evaluator knows.
+    /// The same curve in Bezier form: a B-spline curve of one piece, rational if the basis is, which
+    /// any evaluator knows.
     ///
     /// # Errors
-    /// [`Error::Incompatible`] for a basis that is not known to be one of polynomials;
+    /// [`Error::Incompatible`] for a basis that is not known to be one of polynomials or their quotients;
     /// [`Error::OutOfRange`] for degrees above [`MAX_DEGREE`].
     pub fn to_bezier(&self) -> Result<Curve, Error> {
         self.bezier_with(&self.control_points)
@@ -84,10 +85,16 @@ impl BlendingCurve {
 
     /// As [`BlendingCurve::to_bezier`], with other control points.
     pub(crate) fn bezier_with(&self, control_points: &Points) -> Result<Curve, Error> {
-        let (knots, form) = (bezier_knots(&*self.basis)?, BezierForm::of(&*self.basis)?);
+        let basis = &*self.basis;
+        let (knots, form) = (bezier_knots(basis)?, BezierForm::of(basis)?);
         let dimension = self.dimension();
-        let points = form.convert(control_points.coordinates(), dimension);
-        Curve::new(knots, Points::new(dimension, points)?)
+        let Some(weights) = basis.rational_weights() else {
+            let points = form.convert(control_points.coordinates(), dimension);
+            return Curve::new(knots, Points::new(dimension, points)?);
+        };
+        let lifted = lift(control_points, weights.iter().copied());
+        let (points, weights) = project(&form.convert(&lifted, dimension + 1), dimension);
+        Curve::rational(knots, Points::new(dimension, points)?, weights)
     }
 }
 
@@ -165,11 +172,24 @@ impl BlendingSurface {
         let [u, v] = &self.bases;
         let knots = [bezier_knots(&**u)?, bezier_knots(&**v)?];
         let forms = [BezierForm::of(&**u)?, BezierForm::of(&**v)?];
-        let dimension = self.dimension();
-        let line = v.functions() * dimension;
-        let tall = forms[0].convert(control_points.coordinates(), line);
-        let net = tall.chunks_exact(line).flat_map(|row| forms[1].convert(row, dimension));
-        Surface::new(knots, PointGrid::new(self.control_net.shape(), dimension, net.collect())?)
+        let (shape, dimension) = (self.control_net.shape(), self.dimension());
+        let convert = |points: &[f64], dimension: usize| -> Vec<f64> {
+            let line = v.functions() * dimension;
+            let tall = forms[0].convert(points, line);
+            tall.chunks_exact(line).flat_map(|row| forms[1].convert(row, dimension)).collect()
+        };
+        if u.rational_weights().is_none() && v.rational_weights().is_none() {
+            let net = convert(control_points.coordinates(), dimension);
+            return Surface::new(knots, PointGrid::new(shape, dimension, net)?);
+        }
+        let weight = |basis: &dyn BlendingBasis, i: usize| {
+            basis.rational_weights().map_or(1.0, |weights| weights[i])
+        };
+        let weights = (0..shape[0])
+            .flat_map(|i| (0..shape[1]).map(move |j| weight(&**u, i) * weight(&**v, j)));
+        let lifted = lift(control_points, weights);
+        let (net, weights) = project(&convert(&lifted, dimension + 1), dimension);
+        Surface::rational(knots, PointGrid::new(shape, dimension, net)?, weights)
     }
 }
 
@@ -184,9 +204,7 @@ impl BezierForm {
     fn of(basis: &dyn BlendingBasis) -> Result<Self, Error> {
         let count = basis.functions();
         match basis.bernstein_coefficients() {
-            Some(coefficients)
-                if basis.rational_weights().is_none() && coefficients.len() == count * count =>
-            {
+            Some(coefficients) if coefficients.len() == count * count => {
                 Ok(Self { count, coefficients })
             }
             _ => Err(Error::Incompatible {
@@ -210,6 +228,20 @@ impl BezierForm {
         }
         bezier
     }
+}
+
+/// Points times their weights, each followed by its weight: in these coordinates a rational basis
+/// blends as the basis that its weights blend.
+fn lift(points: &Points, weights: impl Iterator<Item = f64>) -> Vec<f64> {
+    let lifted = points.iter().zip(weights);
+    lifted.flat_map(|(point, w)| point.iter().map(move |x| w * x).chain([w])).collect()
+}
+
+/// The points and weights that [`lift`] makes such an array of.
+fn project(lifted: &[f64], dimension: usize) -> (Vec<f64>, Vec<f64>) {
+    let rows = lifted.chunks_exact(dimension + 1);
+    let points = rows.clone().flat_map(|row| row[..dimension].iter().map(|x| x / row[dimension]));
+    (points.collect(), rows.map(|row| row[dimension]).collect())
 }
 
 /// One span over the domain of a basis.
