@@ -254,8 +254,9 @@ pub(crate) struct IterationArguments {
     #[arg(long, value_enum, value_name = "START", help_heading = "Iteration")]
     pub(crate) foot_points: Option<FootPointStart>,
 
-    /// Points of a curve whose control points move, such as 10-20,35, counted from 1; the others stay
-    /// where they start. Goes with every method
+    /// Points whose control points move, counted from 1; the others stay where they start. Of a curve
+    /// such as 10-20,35; of a grid rows and columns in turns, such as 3-10,5-20 for a window, or
+    /// 3-10,5-20,7,8 for the same and one point
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::positions, help_heading = "Iteration")]
     pub(crate) only: Vec<RangeInclusive<usize>>,
 

@@ -4,11 +4,11 @@ use crate::arguments::{FootPointStart, IterationArguments, MethodChoice};
 use crate::{input, values};
 use anyhow::{anyhow, bail, ensure};
 use gimfit::{IterationWeight, Method};
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 use std::path::Path;
 
 /// The method of `--method`, `--bandwidth`, `--memory` and `--foot-points`.
-pub(crate) fn method(arguments: &IterationArguments, of_curves: bool) -> anyhow::Result<Method> {
+pub(crate) fn method(arguments: &IterationArguments, of_triangle: bool) -> anyhow::Result<Method> {
     let IterationArguments { method: choice, bandwidth, memory, foot_points, .. } = *arguments;
     ensure!(
         foot_points.is_none() || choice == MethodChoice::Geometric,
@@ -23,12 +23,12 @@ pub(crate) fn method(arguments: &IterationArguments, of_curves: bool) -> anyhow:
         "--bandwidth belongs to --method preconditioned"
     );
     ensure!(
-        arguments.only.is_empty() || of_curves,
-        "--only is for curves: of a grid or a triangle all points take part"
+        arguments.only.is_empty() || !of_triangle,
+        "--only is for curves and grids: of a triangle all points take part"
     );
     ensure!(
-        of_curves || choice != MethodChoice::Local,
-        "--method local is for curves: of a grid or a triangle all points take part"
+        !of_triangle || choice != MethodChoice::Local,
+        "--method local is for curves and grids: of a triangle all points take part"
     );
     Ok(match choice {
         MethodChoice::Auto => Method::Auto,
@@ -66,6 +66,39 @@ pub(crate) fn only(
         bail!("{source}: --only names point {beyond}, but there are {points} points");
     }
     Ok(Some(ranges.iter().flat_map(|range| range.start() - 1..*range.end()).collect()))
+}
+
+/// The windows of `--only`, from 0, of a grid of a shape: rows and columns in turns.
+pub(crate) fn only_windows(
+    arguments: &IterationArguments,
+    shape: [usize; 2],
+    source: &str,
+) -> anyhow::Result<Option<Vec<[Range<usize>; 2]>>> {
+    let ranges = &arguments.only;
+    if ranges.is_empty() {
+        ensure!(
+            arguments.method != MethodChoice::Local,
+            "--method local needs --only, the points whose control points are to move"
+        );
+        return Ok(None);
+    }
+    ensure!(
+        ranges.len().is_multiple_of(2),
+        "--only takes rows and columns of a grid in turns, such as 3-10,5-20 for a window, or \
+         3-10,5-20,7,8 for the same and a point; the last rows come without columns"
+    );
+    let windows = ranges.chunks_exact(2).map(|pair| {
+        for (k, range) in pair.iter().enumerate() {
+            let (what, count) = (["row", "column"][k], shape[k]);
+            ensure!(
+                *range.end() <= count,
+                "{source}: --only names {what} {}, but there are {count} {what}s",
+                range.end()
+            );
+        }
+        Ok([pair[0].start() - 1..*pair[0].end(), pair[1].start() - 1..*pair[1].end()])
+    });
+    windows.collect::<anyhow::Result<_>>().map(Some)
 }
 
 /// The weight of `--weight`: auto, lemma2, a number, or a file.

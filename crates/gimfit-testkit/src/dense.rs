@@ -66,6 +66,22 @@ pub fn pia_step(a: &Rows, q: &Rows, p: &Rows) -> Rows {
     p.iter().zip(&r).map(|(p, r)| p.iter().zip(r).map(|(p, r)| p + r).collect()).collect()
 }
 
+/// `P_j + (Q - A P)_j` for the chosen `j`; all others stay (Lin 2010).
+#[must_use]
+pub fn local_pia_step(a: &Rows, q: &Rows, p: &Rows, chosen: &[usize]) -> Rows {
+    let moved = pia_step(a, q, p);
+    let each = moved.into_iter().zip(p).enumerate();
+    each.map(|(j, (moved, stays))| if chosen.contains(&j) { moved } else { stays.clone() })
+        .collect()
+}
+
+/// The Kronecker product of two matrices.
+#[must_use]
+pub fn kronecker(a: &Rows, b: &Rows) -> Rows {
+    let row = |x: &[f64], y: &[f64]| x.iter().flat_map(|x| y.iter().map(move |y| x * y)).collect();
+    a.iter().flat_map(|x| b.iter().map(move |y| row(x, y))).collect()
+}
+
 /// `P_i + (Q - A P)_i / A_ii`, all at once.
 #[must_use]
 pub fn jacobi_step(a: &Rows, q: &Rows, p: &Rows) -> Rows {

@@ -102,13 +102,7 @@ fn iterates_are_those_of_the_dense_kronecker_product() {
             .map(|&t| (0..shape[k]).map(|i| basis_function(knots[k].values(), 3, i, t)).collect())
             .collect()
     };
-    let (a_u, a_v) = (collocation(0), collocation(1));
-    let mut kronecker = Rows::new();
-    for row_u in &a_u {
-        for row_v in &a_v {
-            kronecker.push(row_u.iter().flat_map(|u| row_v.iter().map(move |v| u * v)).collect());
-        }
-    }
+    let kronecker = dense::kronecker(&collocation(0), &collocation(1));
     let data: Rows = points.chunks(3).map(<[f64]>::to_vec).collect();
     let expected = dense::residual_history(&kronecker, &data, dense::pia_step, 8);
     for (entry, expected) in found.report.run.history.iter().zip(&expected) {

@@ -36,7 +36,7 @@ pub(super) enum Recipe {
 
 impl Plan {
     pub(super) fn new(arguments: &CurveArguments) -> anyhow::Result<Self> {
-        let method = method(&arguments.iteration, true)?;
+        let method = method(&arguments.iteration, false)?;
         let weight = weight(&arguments.iteration.weight)?;
         let Shape { table, options, basis } = shape(&arguments.input, &arguments.shape)?;
         let local = only(&arguments.iteration, table.rows(), &table.source)?;

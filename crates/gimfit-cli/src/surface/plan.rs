@@ -5,7 +5,7 @@ use crate::arguments::{KnotRule, RuleOrFile};
 use crate::basis::{basis, only_b_splines};
 use crate::curve::{degree, knot_placement};
 use crate::input;
-use crate::method::{ensure_kept_fits_fit, method, weight, weight_file};
+use crate::method::{ensure_kept_fits_fit, method, only_windows, weight, weight_file};
 use crate::targets::is_standard;
 use anyhow::{Context, bail, ensure};
 use gimfit::basis::BlendingBasis;
@@ -52,6 +52,7 @@ impl Plan {
             numbers,
             &grid.source,
         )?;
+        let local = only_windows(&arguments.iteration, [grid.rows, grid.columns], &grid.source)?;
         let mut remarks = Vec::new();
         let mut parameterization = |k: usize| -> anyhow::Result<Option<Parameterization>> {
             let Some(choices) = &arguments.parameters else { return Ok(None) };
@@ -81,6 +82,7 @@ impl Plan {
                 .transpose()?,
             method,
             weight,
+            local,
             per_direction: arguments.per_direction,
             iterations: arguments.iteration.iterations,
             residual: arguments.iteration.residual,
@@ -127,6 +129,8 @@ fn blending(
         arguments.rational_weights.is_some(),
         "--knots bezier makes a rational Bezier surface of them",
     )?;
+    let only = !arguments.iteration.only.is_empty();
+    only_b_splines("--only", only, "other bases move all points in every step")?;
     only_b_splines("--closed", arguments.closed != ClosedChoice::None, "other bases are open")?;
     Ok(Some(bases))
 }

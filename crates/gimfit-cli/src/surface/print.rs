@@ -41,10 +41,15 @@ pub(super) fn report(job: &Job<'_>, written: &[String]) -> String {
         ),
     );
     let place = |[i, j]: [usize; 2]| grid.point_name(i, j);
+    let columns = report.points[1];
+    let outside = report.run.local.map(|local| {
+        let index = local.outside_max_residual_index;
+        place([index / columns, index % columns])
+    });
     lines.run(&RunLines {
         run: &report.run,
         max_residual_place: place(report.max_residual_index),
-        outside_place: None,
+        outside_place: outside,
         max_deviation: report.max_deviation,
         max_deviation_place: place(report.max_deviation_index),
         seconds: job.document.report.as_ref().and_then(|report| report.run.seconds),

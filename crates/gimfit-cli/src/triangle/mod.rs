@@ -70,7 +70,7 @@ pub(crate) fn run(arguments: &TriangleArguments) -> anyhow::Result<Ending> {
     let clock = Instant::now();
     let iteration = &arguments.iteration;
     let mut options = TriangleOptions {
-        method: method(iteration, false)?,
+        method: method(iteration, true)?,
         weight: weight(&iteration.weight)?,
         iterations: iteration.iterations,
         residual: iteration.residual,

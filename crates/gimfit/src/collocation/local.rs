@@ -110,3 +110,43 @@ impl BandedCollocation {
         Self::from_rows(width, first, weights)
     }
 }
+
+/// An operator among control points that move while others are held: what those add to the curve or
+/// surface is taken off the data beforehand, so that the start stays the data themselves.
+#[derive(Debug)]
+pub(crate) struct HeldCollocation<'a> {
+    operator: Box<dyn CollocationOperator + 'a>,
+    /// The data less what is held.
+    target: &'a [f64],
+}
+
+impl<'a> HeldCollocation<'a> {
+    /// `target` has a point per row.
+    pub(crate) fn new(operator: Box<dyn CollocationOperator + 'a>, target: &'a [f64]) -> Self {
+        Self { operator, target }
+    }
+}
+
+impl CollocationOperator for HeldCollocation<'_> {
+    fn points(&self) -> usize {
+        self.operator.points()
+    }
+
+    fn control_points(&self) -> usize {
+        self.operator.control_points()
+    }
+
+    fn apply(&self, x: &[f64], dimension: usize, result: &mut [f64]) {
+        self.operator.apply(x, dimension, result);
+    }
+
+    fn difference_vectors(
+        &self,
+        _: &[f64],
+        control: &[f64],
+        dimension: usize,
+        result: &mut [f64],
+    ) -> ResidualNorms {
+        self.operator.difference_vectors(self.target, control, dimension, result)
+    }
+}

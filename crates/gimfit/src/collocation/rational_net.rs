@@ -28,6 +28,12 @@ impl NetWeights {
         Self { weights, sums }
     }
 
+    /// The weights and sums at some positions: what local PIA of these points sees.
+    pub(crate) fn at(&self, points: &[usize]) -> Self {
+        let gather = |all: &[f64]| points.iter().map(|&k| all[k]).collect();
+        Self { weights: gather(&self.weights), sums: gather(&self.sums) }
+    }
+
     /// The weights.
     #[must_use]
     pub fn weights(&self) -> &[f64] {

@@ -2,9 +2,9 @@
 
 use super::blending::{cautions, note_near_singularity, onto_domain};
 use super::curve::{parameterization_name, spacing_ratio};
+use super::net::{Setting, run_net};
 use super::prepare::check_extent;
 use super::solve::{Size, norm, unscaled};
-use super::surface::{Setting, run_net};
 use super::surface_method::Directions;
 use super::{BlendingSurfaceOptions, KeptFit, SurfaceFit, SurfaceOptions};
 use crate::Error;
@@ -125,6 +125,7 @@ pub fn fit_blending_surface_observed(
         options: &net_options,
         stopping,
         expand: &|control| control,
+        target: None,
     };
     let (mut solved, stages) = run_net(&setting, observer)?;
     note_near_singularity(&[&u.operator, &v.operator], &mut solved.run);

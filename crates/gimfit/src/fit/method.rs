@@ -58,7 +58,7 @@ pub(super) fn choose<'a>(
             return Err(Error::Incompatible {
                 what: "local",
                 with: "this recipe",
-                why: "points are chosen for curves of B-splines only; use another method",
+                why: "points are chosen for fits of B-splines only; use another method",
             });
         }
         Method::Adaptive => {

@@ -3,6 +3,7 @@
 use crate::knots::KnotPlacement;
 use crate::parameters::Parameterization;
 use crate::points::Duplicates;
+use std::ops::Range;
 
 /// The rule that moves the control points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -35,7 +36,7 @@ pub enum Method {
         /// Entries farther from the diagonal are added to it; `None` keeps all.
         half_bandwidth: Option<usize>,
     },
-    /// Local PIA (Lin 2010): plain PIA of the points that the options choose.
+    /// Local PIA (Lin 2010): plain PIA of the points that the options choose, of curves and grids.
     Local,
     /// Adaptive PIA (Lin 2012): plain PIA that freezes points once they are met.
     Adaptive,
@@ -274,6 +275,11 @@ pub struct SurfaceOptions {
     pub method: Method,
     /// Its weight.
     pub weight: SurfaceWeight,
+    /// Windows of the points whose control points move, rows and columns of the grid given, counted
+    /// from 0; `None`: all. Their union moves, as in [`CurveOptions::local`]. Where it is all crossings
+    /// of some rows with some columns, every method goes with it but geometric interpolation; of other
+    /// unions only those that need no factored matrix.
+    pub local: Option<Vec<[Range<usize>; 2]>>,
     /// Whether the columns are run to their limit first, then the rows.
     pub per_direction: bool,
     /// Most steps; per direction, in each.
@@ -294,6 +300,7 @@ impl Default for SurfaceOptions {
             rational_weights: None,
             method: Method::Auto,
             weight: SurfaceWeight::default(),
+            local: None,
             per_direction: false,
             iterations: 1000,
             residual: None,

@@ -27,7 +27,7 @@ impl Directions<'_> {
 }
 
 /// Products of eigenvalues beyond this diverge; a hundredth above 2, which the estimates may miss.
-const JACOBI_DIVERGES: f64 = 2.02;
+pub(super) const JACOBI_DIVERGES: f64 = 2.02;
 
 /// Prepares a rule that moves the whole net at once.
 pub(super) fn choose_both<'a>(
@@ -44,12 +44,7 @@ pub(super) fn choose_both<'a>(
     let mut eigenvalue = None;
     let mut smallest = || -> Result<f64, Error> {
         if let Some(net) = rational {
-            let inverse = NetPreconditioned::new(u, v, None)?;
-            return smallest_rational_eigenvalue(
-                Rescaled::new(inverse, net),
-                net.sums().len(),
-                columns,
-            );
+            return smallest_rational_eigenvalue(u, v, net);
         }
         let (u, v) = (smallest_eigenvalue_of(u)?, smallest_eigenvalue_of(v)?);
         let tight = u.estimate <= 1.5 * u.lower && v.estimate <= 1.5 * v.lower;
@@ -90,8 +85,8 @@ pub(super) fn choose_both<'a>(
         Method::Local => {
             return Err(Error::Incompatible {
                 what: "local",
-                with: "a grid of points",
-                why: "points are chosen for curves of B-splines only; use another method",
+                with: "this recipe",
+                why: "points are chosen for fits of B-splines only; use another method",
             });
         }
         Method::Adaptive => {
@@ -154,12 +149,14 @@ pub(super) fn choose_both<'a>(
 /// A safe lower estimate of the smallest eigenvalue of a matrix whose inverse is at hand, with signs
 /// like a chessboard as inverses of totally positive matrices have: powers of the inverse without its
 /// signs, between whose bounds the largest eigenvalue lies (Collatz 1942).
-fn smallest_rational_eigenvalue(
-    mut inverse: impl UpdateRule,
-    count: usize,
-    columns: usize,
+pub(super) fn smallest_rational_eigenvalue(
+    u: &dyn CollocationMatrix,
+    v: &dyn CollocationMatrix,
+    net: &NetWeights,
 ) -> Result<f64, Error> {
     const MOST: usize = 200;
+    let mut inverse = Rescaled::new(NetPreconditioned::new(u, v, None)?, net);
+    let (count, columns) = (net.sums().len(), v.points());
     let sign = |k: usize| if (k / columns + k % columns).is_multiple_of(2) { 1.0 } else { -1.0 };
     let still = vec![0.0; count];
     let mut x = vec![1.0; count];
