@@ -82,8 +82,19 @@ fn any_options() -> impl Strategy<Value = CurveOptions> {
     ];
     let duplicates =
         prop::sample::select(vec![Duplicates::Error, Duplicates::Drop, Duplicates::Merge]);
+    // As many as the most points there can be; the tests leave out those that are too many.
+    let most = 147;
+    let weight_of_a_rational_curve = prop_oneof![
+        30 => 0.1..10.0,
+        2 => prop::sample::select(vec![1e-300, 1e300, 1e-12, 1e12, f64::MIN_POSITIVE]),
+    ];
+    let rational_weights = prop_oneof![
+        4 => Just(None),
+        2 => prop::collection::vec(weight_of_a_rational_curve, most).prop_map(Some),
+        1 => prop::collection::vec(any_coordinate(), 0..most).prop_map(Some),
+    ];
     (
-        (0_usize..12, any::<bool>(), parameterization, knots, convexity),
+        (0_usize..12, any::<bool>(), parameterization, knots, (convexity, rational_weights)),
         (method, weight, 0_usize..60, residual),
         (duplicates, prop::collection::vec(0_usize..40, 0..4), local),
     )
@@ -93,8 +104,8 @@ fn any_options() -> impl Strategy<Value = CurveOptions> {
             closed: curve.1,
             parameterization: curve.2,
             knot_placement: curve.3,
-            convexity: curve.4,
-            rational_weights: None,
+            convexity: curve.4.0,
+            rational_weights: curve.4.1,
             method: iteration.0,
             weight: iteration.1,
             iterations: iteration.2,
@@ -102,6 +113,14 @@ fn any_options() -> impl Strategy<Value = CurveOptions> {
             duplicates: rest.0,
             keep: rest.1,
         })
+}
+
+/// Leaves out weights beyond the number of points.
+fn fit_count(weights: Option<Vec<f64>>, points: usize) -> Option<Vec<f64>> {
+    weights.map(|mut weights| {
+        weights.truncate(points);
+        weights
+    })
 }
 
 /// Fits and looks for what must never be found.
@@ -161,7 +180,8 @@ fn check_surface(
                 report.run.rms_residual,
                 report.max_deviation
             ]));
-            assert!(report.max_deviation <= report.run.max_residual);
+            let outside = report.run.local.map_or(0.0, |local| local.outside_max_residual);
+            assert!(report.max_deviation <= report.run.max_residual.max(outside));
             for (u, v) in fit.surface.knots()[0]
                 .equal_steps(4)
                 .into_iter()
@@ -182,8 +202,10 @@ proptest! {
         coordinates in prop::collection::vec(any_coordinate(), 0..60),
         options in any_options(),
     ) {
-        let whole = coordinates.len() / dimension * dimension;
-        check(dimension, &coordinates[..whole], &options);
+        let points = coordinates.len() / dimension;
+        let rational_weights = fit_count(options.rational_weights.clone(), points);
+        let options = CurveOptions { rational_weights, ..options };
+        check(dimension, &coordinates[..points * dimension], &options);
     }
 
     #[test]
@@ -194,16 +216,21 @@ proptest! {
         coordinates in prop::collection::vec(any_coordinate(), 147),
         choices in (any_options(), any_options()),
         per_direction in any::<bool>(),
+        windows in prop::collection::vec((0_usize..8, 0_usize..4, 0_usize..8, 0_usize..4), 0..3),
+        chosen in prop::bool::weighted(0.3),
     ) {
         let (u, v) = choices;
+        let window = |(i, m, j, n): (usize, usize, usize, usize)| [i..i + m, j..j + n];
+        let local = chosen.then(|| windows.into_iter().map(window).collect());
         let options = SurfaceOptions {
             degrees: [u.degree, v.degree],
             closed: [u.closed, v.closed],
             parameterizations: [u.parameterization, v.parameterization],
             knot_placements: [u.knot_placement, v.knot_placement],
-            rational_weights: None,
+            rational_weights: fit_count(u.rational_weights, rows * columns),
             method: u.method,
             weight: u.weight.into(),
+            local,
             per_direction,
             iterations: u.iterations,
             residual: u.residual,

@@ -55,6 +55,68 @@ fn the_local_limit_interpolates_the_chosen_points_and_moves_no_other() {
     }
 }
 
+/// Weights of rational curves from `1 / most` to `most`.
+fn rational_weights(count: usize, most: f64) -> Vec<f64> {
+    let mut random = Random::new(21);
+    (0..count).map(|_| most.powf(random.signed())).collect()
+}
+
+#[test]
+fn local_pia_of_a_rational_curve_is_that_of_the_part_of_its_full_matrix() {
+    let (rows, weights) = (random_walk(4, 20, 2), rational_weights(20, 3.0));
+    let data = Points::new(2, rows.concat()).unwrap();
+    let chosen = [2, 3, 4, 9, 10, 17];
+    for degree in [2, 3, 5] {
+        let options = CurveOptions {
+            degree,
+            method: Method::Local,
+            local: Some(chosen.to_vec()),
+            rational_weights: Some(weights.clone()),
+            iterations: 12,
+            residual: Some(0.0),
+            keep: (0..=12).collect(),
+            ..Default::default()
+        };
+        let fit = fit_curve(&data, &options).unwrap();
+        let knots = fit.curve.knots().values();
+        let mut matrix = textbook::collocation_matrix(knots, degree, &fit.parameters);
+        for row in &mut matrix {
+            row.iter_mut().zip(&weights).for_each(|(x, w)| *x *= w);
+            let sum: f64 = row.iter().sum();
+            row.iter_mut().for_each(|x| *x /= sum);
+        }
+        let mut control = rows.clone();
+        for kept in &fit.sequence {
+            for (ours, theirs) in kept.control_points.iter().zip(&control) {
+                assert!((ours[0] - theirs[0]).hypot(ours[1] - theirs[1]) < 1e-12, "{degree}");
+            }
+            control = dense::local_pia_step(&matrix, &rows, &control, &chosen);
+        }
+        assert_eq!(fit.sequence.len(), 13);
+        // To the limit, by every kind of rule.
+        for method in [Method::Local, Method::Auto, Method::Sor, Method::Adaptive] {
+            let long = CurveOptions {
+                method,
+                iterations: 100_000,
+                residual: Some(1e-10),
+                keep: Vec::new(),
+                ..options.clone()
+            };
+            let fit = fit_curve(&data, &long).unwrap();
+            assert!(fit.report.converged(), "{method:?} {degree}");
+            let control: dense::Rows =
+                fit.curve.control_points().iter().map(<[f64]>::to_vec).collect();
+            for (j, row) in rows.iter().enumerate() {
+                let t = fit.parameters[j];
+                let at = textbook::rational_curve_point(knots, degree, &control, &weights, t);
+                let gap = (at[0] - row[0]).hypot(at[1] - row[1]);
+                assert!(gap <= 1.1e-10 || !chosen.contains(&j), "{method:?} {degree} {j}: {gap:e}");
+                assert!(chosen.contains(&j) || control[j] == *row);
+            }
+        }
+    }
+}
+
 #[test]
 fn a_part_of_the_matrix_has_no_smaller_eigenvalue() {
     let mut random = Random::new(9);
@@ -75,11 +137,13 @@ fn a_part_of_the_matrix_has_no_smaller_eigenvalue() {
 #[test]
 fn adaptive_pia_ends_with_every_residual_met_and_spares_moves() {
     for degree in 1..=5 {
-        for closed in [false, true] {
+        for (closed, rational) in [(false, false), (true, false), (false, true), (true, true)] {
             let data = Points::new(2, random_walk(3, 60, 2).concat()).unwrap();
             let options = CurveOptions {
                 degree,
                 closed,
+                // Plain PIA of rational quintics through these points would stall itself.
+                rational_weights: (rational && degree < 5).then(|| rational_weights(60, 1.3)),
                 method: Method::Adaptive,
                 residual: Some(1e-4),
                 iterations: 20_000,

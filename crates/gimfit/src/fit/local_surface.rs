@@ -196,8 +196,7 @@ impl ChosenNet {
     /// The sentence for the report.
     fn choice(&self, count: usize) -> String {
         let matrix = if self.scattered.is_some() {
-            "which are not all crossings of some rows with some columns, on the matrix of their own, \
-             row by row"
+            "not all crossings of some rows with some columns, on a matrix of their own, row by row"
                 .into()
         } else {
             let [rows, columns] = self.lines.each_ref().map(Vec::len);

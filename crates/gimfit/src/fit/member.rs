@@ -201,7 +201,7 @@ fn measure(
     })
 }
 
-/// The account of the run up to an iteration.
+/// The account of the run up to an iteration. Its residuals are those of all points, of local PIA, too.
 fn run_of(run: &RunReport, measured: &Measured, iteration: usize) -> RunReport {
     let met = run.residual_target > 0.0 && measured.max_residual.0 <= run.residual_target;
     let mut choices = run.choices.clone();
@@ -216,6 +216,7 @@ fn run_of(run: &RunReport, measured: &Measured, iteration: usize) -> RunReport {
         termination: if met { Termination::Residual } else { Termination::Iterations },
         max_residual: measured.max_residual.0,
         rms_residual: measured.rms_residual,
+        local: None,
         history: run.history.iter().filter(|entry| entry.iteration <= iteration).copied().collect(),
         ..run.clone()
     }
