@@ -27,6 +27,15 @@ PAGE_OF = {
     "staged": "auto",
     "grid": "surfaces",
     "net_preconditioned": "surfaces",
+    "column-sums": "lspia",
+    "sor-lspia": "gs-lspia",
+    "heavy_ball": "mlspia",
+    "conjugate_gradients": "cgls",
+    "pcg": "cgls",
+    "random_columns": "randomised",
+    "random_rows": "randomised",
+    "random-columns": "randomised",
+    "random-rows": "randomised",
 }
 
 LINK = re.compile(r"!?\[(?:[^\[\]]|\[[^\]]*\])*\]\(\s*<?([^)\s>]+)>?(?:\s+\"[^\"]*\")?\s*\)")

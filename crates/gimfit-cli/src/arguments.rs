@@ -1,8 +1,8 @@
 //! What can be typed, as clap reads it. Values that mean one of several things, such as a rule or a
 //! file, are told apart here.
 
-use crate::curve::ApproximationArguments;
 use crate::curve::edit::EditArguments;
+use crate::curve::{ApproximationArguments, LeastSquaresArguments};
 use crate::evaluate::SampleCount;
 use crate::surface::SurfaceArguments;
 use crate::triangle::TriangleArguments;
@@ -101,7 +101,8 @@ Examples:
   gimfit curve track.gpx --columns east,north,up --method pia --keep 0,2,4,15,30 -o track.svg
   gimfit curve outline.csv --closed --convex -o outline.svg
   gimfit curve signal.csv --abscissa x -o signal.json
-  gimfit curve scan.xyz --tolerance 0.05 -o scan.json"
+  gimfit curve scan.xyz --tolerance 0.05 -o scan.json
+  gimfit curve scan.xyz --method least-squares --control-points 40 -o scan.json"
 )]
 pub(crate) struct CurveArguments {
     #[command(flatten)]
@@ -138,6 +139,9 @@ pub(crate) struct CurveArguments {
 
     #[command(flatten)]
     pub(crate) approximation: ApproximationArguments,
+
+    #[command(flatten)]
+    pub(crate) least_squares: LeastSquaresArguments,
 
     #[command(flatten)]
     pub(crate) iteration: IterationArguments,
@@ -230,11 +234,12 @@ pub(crate) struct IterationArguments {
 
     /// Weight for weighted and sor: auto (the best one), a number between 0 and 2, or for weighted
     /// lemma2 (converges where eigenvalues are complex) or a file of one number per point, of a grid
-    /// row by row
+    /// row by row. For lspia, column-sums and sor-lspia auto or a number; for lspia, column-sums,
+    /// mlspia and nesterov published
     #[arg(
         long,
         default_value = "auto",
-        value_name = "W|auto|lemma2|FILE",
+        value_name = "W|auto|published|lemma2|FILE",
         allow_negative_numbers = true,
         help_heading = "Iteration"
     )]
@@ -278,6 +283,14 @@ pub(crate) struct IterationArguments {
     /// Iterations whose fits are kept, such as 0,2,4,15,30
     #[arg(long, value_name = "LIST", value_delimiter = ',', help_heading = "Iteration")]
     pub(crate) keep: Vec<usize>,
+}
+
+impl IterationArguments {
+    /// The method as typed.
+    pub(crate) fn method_name(&self) -> String {
+        let value = self.method.to_possible_value();
+        value.map(|value| value.get_name().to_owned()).unwrap_or_default()
+    }
 }
 
 /// What is written and printed, for curves and surfaces.
@@ -457,6 +470,35 @@ pub(crate) enum MethodChoice {
     Local,
     /// Plain, but points that are done no longer move
     Adaptive,
+    /// Least squares, quickly, whatever the data; with --control-points or a file of knots, as all
+    /// that follow
+    LeastSquares,
+    /// Least squares: transposed matrix times difference vectors, times a weight
+    Lspia,
+    /// Least squares: LSPIA with reciprocal column sums as weights
+    ColumnSums,
+    /// Least squares: each control point sees those moved before
+    GsLspia,
+    /// Least squares: the same, over-relaxed
+    SorLspia,
+    /// Least squares: heavy ball, LSPIA with memory
+    Mlspia,
+    /// Least squares: Nesterov's acceleration, with restarts
+    Nesterov,
+    /// Least squares: three-term recurrence
+    ChebyshevLspia,
+    /// Least squares: steps from the last two gradients
+    Salspia,
+    /// Least squares: single control points in random order
+    RandomColumns,
+    /// Least squares: single data points in random order
+    RandomRows,
+    /// Near least squares: means over the data points of each control point
+    Epia,
+    /// Least squares: conjugate gradients
+    Cgls,
+    /// Least squares: conjugate gradients, preconditioned by the diagonal
+    Pcg,
 }
 
 #[derive(Debug, Args)]

@@ -4,7 +4,7 @@ use crate::arguments::{ConvexChoice, MethodChoice};
 use crate::outputs::{Outputs, Product, Wanted};
 use crate::targets::is_standard;
 use crate::{Ending, output};
-use gimfit::Termination;
+use gimfit::{RunReport, Termination};
 
 /// What is printed, and of which run.
 pub(crate) struct Finish<'a> {
@@ -17,12 +17,39 @@ pub(crate) struct Finish<'a> {
 /// How a run ended.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Run {
-    pub(crate) termination: Termination,
-    pub(crate) residual_target: f64,
-    pub(crate) max_residual: f64,
-    pub(crate) iterations: usize,
-    /// Whether a distance was to be kept rather than the points met.
-    pub(crate) approximates: bool,
+    termination: Termination,
+    residual_target: f64,
+    /// The residual, or whatever it was to bring down.
+    reached: f64,
+    iterations: usize,
+    /// How much of that a step left towards the end.
+    rate: Option<f64>,
+    kind: Sought,
+}
+
+impl Run {
+    /// How a run ended that was to bring this down.
+    pub(crate) fn of(run: &RunReport, kind: Sought) -> Self {
+        Self {
+            termination: run.termination,
+            residual_target: run.residual_target,
+            reached: run.to_limit(),
+            iterations: run.iterations,
+            rate: run.rate(),
+            kind,
+        }
+    }
+}
+
+/// What a run was to bring down.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Sought {
+    /// The largest residual.
+    Residual,
+    /// The largest distance.
+    Distance,
+    /// The normal residual of least squares.
+    LeastSquares,
 }
 
 impl Finish<'_> {
@@ -51,7 +78,7 @@ impl Finish<'_> {
 
     /// Running all the iterations asked for is done, unless a residual was to be reached.
     fn ending(&self) -> Ending {
-        let Run { termination, residual_target, max_residual, iterations, approximates } = self.run;
+        let Run { termination, residual_target, reached, iterations, rate, kind } = self.run;
         let met = match termination {
             Termination::Residual => true,
             Termination::Iterations => residual_target == 0.0,
@@ -60,10 +87,19 @@ impl Finish<'_> {
         if met {
             return Ending::Done;
         }
-        let what = if approximates { "distance" } else { "residual" };
+        let what = match kind {
+            Sought::Residual => "residual",
+            Sought::Distance => "distance",
+            Sought::LeastSquares => "normal residual",
+        };
+        // How slow it was is worth knowing where more steps would help.
+        let pace = rate
+            .filter(|rate| termination == Termination::Iterations && *rate < 1.0)
+            .map(|rate| pace(rate, reached, residual_target))
+            .unwrap_or_default();
         output::remark(&format!(
             "{}warning: the {what} {residual_target:.3e} was not reached: the run ended by \
-             {termination} at {max_residual:.3e} after {iterations} iterations; what was found is \
+             {termination} at {reached:.3e} after {iterations} iterations{pace}; what was found is \
              written all the same{}\n",
             if self.wanted.arguments.quiet { "" } else { "\n" },
             self.advice()
@@ -73,9 +109,21 @@ impl Finish<'_> {
 
     /// What to try next.
     fn advice(&self) -> &'static str {
-        let auto = self.method == MethodChoice::Auto;
-        if self.run.approximates {
+        let auto = matches!(self.method, MethodChoice::Auto | MethodChoice::LeastSquares);
+        if self.run.kind == Sought::Distance {
             return "; allow a larger distance, or fewer demands";
+        }
+        if self.run.kind == Sought::LeastSquares {
+            return match self.run.termination {
+                Termination::Iterations if auto => "; allow more with --iterations",
+                Termination::Iterations => {
+                    "; allow more with --iterations, or use --method least-squares"
+                }
+                Termination::Stalled | Termination::Diverged if !auto => {
+                    "; use --method least-squares"
+                }
+                _ => "",
+            };
         }
         match self.run.termination {
             Termination::Constrained => {
@@ -102,4 +150,15 @@ impl Finish<'_> {
             _ => "",
         }
     }
+}
+
+/// How far the run got in a step, and how many more would do if that went on.
+fn pace(rate: f64, reached: f64, target: f64) -> String {
+    let steps = ((target / reached).ln() / rate.ln()).ceil();
+    let more = if target > 0.0 && steps.is_finite() && steps < 1e9 {
+        format!(", so that about {steps:.0} more are needed")
+    } else {
+        String::new()
+    };
+    format!(" (the last steps left {rate:.4} of it each{more})")
 }

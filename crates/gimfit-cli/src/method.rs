@@ -10,18 +10,7 @@ use std::path::Path;
 /// The method of `--method`, `--bandwidth`, `--memory` and `--foot-points`.
 pub(crate) fn method(arguments: &IterationArguments, of_triangle: bool) -> anyhow::Result<Method> {
     let IterationArguments { method: choice, bandwidth, memory, foot_points, .. } = *arguments;
-    ensure!(
-        foot_points.is_none() || choice == MethodChoice::Geometric,
-        "--foot-points belongs to --method geometric"
-    );
-    ensure!(
-        memory.is_none() || choice == MethodChoice::Anderson,
-        "--memory belongs to --method anderson"
-    );
-    ensure!(
-        bandwidth.is_none() || choice == MethodChoice::Preconditioned,
-        "--bandwidth belongs to --method preconditioned"
-    );
+    check_owners(arguments)?;
     ensure!(
         arguments.only.is_empty() || !of_triangle,
         "--only is for curves and grids: of a triangle all points take part"
@@ -45,7 +34,42 @@ pub(crate) fn method(arguments: &IterationArguments, of_triangle: bool) -> anyho
         MethodChoice::Preconditioned => Method::Preconditioned { half_bandwidth: bandwidth },
         MethodChoice::Local => Method::Local,
         MethodChoice::Adaptive => Method::Adaptive,
+        MethodChoice::LeastSquares
+        | MethodChoice::Lspia
+        | MethodChoice::ColumnSums
+        | MethodChoice::GsLspia
+        | MethodChoice::SorLspia
+        | MethodChoice::Mlspia
+        | MethodChoice::Nesterov
+        | MethodChoice::ChebyshevLspia
+        | MethodChoice::Salspia
+        | MethodChoice::RandomColumns
+        | MethodChoice::RandomRows
+        | MethodChoice::Epia
+        | MethodChoice::Cgls
+        | MethodChoice::Pcg => bail!(
+            "--method {} is for curves with fewer control points than points",
+            arguments.method_name()
+        ),
     })
+}
+
+/// Refuses what belongs to other methods.
+pub(crate) fn check_owners(arguments: &IterationArguments) -> anyhow::Result<()> {
+    let IterationArguments { method: choice, bandwidth, memory, foot_points, .. } = *arguments;
+    ensure!(
+        foot_points.is_none() || choice == MethodChoice::Geometric,
+        "--foot-points belongs to --method geometric"
+    );
+    ensure!(
+        memory.is_none() || choice == MethodChoice::Anderson,
+        "--memory belongs to --method anderson"
+    );
+    ensure!(
+        bandwidth.is_none() || choice == MethodChoice::Preconditioned,
+        "--bandwidth belongs to --method preconditioned"
+    );
+    Ok(())
 }
 
 /// The points of `--only`, from 0, of a file of `points` points.
@@ -104,6 +128,10 @@ pub(crate) fn only_windows(
 /// The weight of `--weight`: auto, lemma2, a number, or a file.
 pub(crate) fn weight(text: &str) -> anyhow::Result<IterationWeight> {
     match text {
+        "published" => bail!(
+            "--weight published belongs to methods of least squares: lspia, column-sums, mlspia, \
+             nesterov"
+        ),
         "auto" => return Ok(IterationWeight::Auto),
         "lemma2" => return Ok(IterationWeight::Lemma2),
         _ => {}
@@ -118,7 +146,8 @@ pub(crate) fn weight(text: &str) -> anyhow::Result<IterationWeight> {
 
 /// The file of weights that `--weight` names, if it is none of its words.
 pub(crate) fn weight_file(text: &str) -> Option<&Path> {
-    (!matches!(text, "auto" | "lemma2") && text.parse::<f64>().is_err()).then(|| Path::new(text))
+    (!matches!(text, "auto" | "lemma2" | "published") && text.parse::<f64>().is_err())
+        .then(|| Path::new(text))
 }
 
 /// Most numbers in kept fits: 8 GB.

@@ -57,6 +57,16 @@ impl Lines {
                 length(run.extent)
             ),
         );
+        if let Some(account) = run.least_squares {
+            self.add(
+                "normal",
+                &format!(
+                    "largest mean difference vector of a control point {:.3e}, which is 0 at the \
+                     limit",
+                    account.normal_residual
+                ),
+            );
+        }
         self.add(
             "deviation",
             &format!("largest {:.3e} at {}", account.max_deviation, account.max_deviation_place),

@@ -7,5 +7,6 @@ pub mod convexity;
 pub mod dense;
 pub mod generate;
 pub mod geometric;
+pub mod least_squares;
 pub mod nearest;
 pub mod textbook;

@@ -63,10 +63,12 @@ pub use error::Error;
 pub use fit::{
     ApproximationOptions, BlendingCurveFit, BlendingOptions, BlendingSurfaceFit,
     BlendingSurfaceOptions, Convexity, Corners, CurveDiagnosis, CurveFit, CurveOptions, EditReport,
-    EditableCurve, Goal, IterationWeight, KeptFit, Method, SurfaceFit, SurfaceOptions,
-    SurfaceWeight, TriangleFit, TriangleOptions, approximate_curve, approximate_curve_observed,
+    EditableCurve, Goal, IterationWeight, KeptFit, LeastSquaresKnots, LeastSquaresMethod,
+    LeastSquaresOptions, LeastSquaresWeight, Method, SurfaceFit, SurfaceOptions, SurfaceWeight,
+    TriangleFit, TriangleOptions, approximate_curve, approximate_curve_observed,
     diagnose_blending_curve, diagnose_curve, fit_blending_curve, fit_blending_surface, fit_curve,
-    fit_curve_observed, fit_surface, fit_surface_observed, fit_triangular_patch,
+    fit_curve_observed, fit_least_squares, fit_least_squares_observed, fit_surface,
+    fit_surface_observed, fit_triangular_patch,
 };
 pub use fit::{SurfaceDiagnosis, diagnose_surface};
 pub use geometry::{BlendingCurve, BlendingSurface, Curve, Surface, TriangularPatch};
@@ -75,8 +77,8 @@ pub use knots::{KnotPlacement, KnotVector};
 pub use parameters::Parameterization;
 pub use points::{Duplicates, GridView, PointGrid, Points, PointsView};
 pub use report::{
-    ApproximationReport, CurveReport, FootPointReport, LocalReport, RunReport, ShapeReport,
-    SurfaceReport, TriangleReport,
+    ApproximationReport, CurveReport, FootPointReport, LeastSquaresReport, LocalReport, RunReport,
+    ShapeReport, SurfaceReport, TriangleReport,
 };
 
 /// The Rust examples of the README and of the documentation pages, run as tests.
@@ -104,8 +106,10 @@ mod pages {
         Geometric: "docs/methods/geometric.md",
         GaussSeidel: "docs/methods/gauss-seidel.md",
         Jacobi: "docs/methods/jacobi.md",
+        LeastSquares: "docs/methods/least-squares.md",
         Knots: "docs/methods/knots.md",
         Local: "docs/methods/local.md",
+        Lspia: "docs/methods/lspia.md",
         Nurbs: "docs/methods/nurbs.md",
         Parameters: "docs/methods/parameters.md",
         Pia: "docs/methods/pia.md",

@@ -3,13 +3,17 @@
 #![allow(clippy::unwrap_used, clippy::panic)] // A test that cannot go on has failed.
 
 use gimfit::basis::WangBall;
-use gimfit::collocation::{DenseCollocation, interpolation};
+use gimfit::collocation::{
+    CollocationMatrix, DenseCollocation, LeastSquaresCollocation, interpolation,
+};
 use gimfit::iteration::update::{
-    Adaptive, AdaptiveRows, Anderson, Chebyshev, ClosestConvex, ConvexityPreserving, GaussSeidel,
-    Jacobi, Local, PerPoint, Pia, Preconditioned, Sor, Staged, Weighted,
+    Adaptive, AdaptiveRows, Anderson, Chebyshev, ClosestConvex, ConjugateGradients,
+    ConvexityPreserving, GaussSeidel, HeavyBall, Jacobi, Local, Nesterov, PerPoint, Pia,
+    Preconditioned, Preconditioner, RandomColumns, RandomRows, SaLspia, Scaled, Sor, Staged,
+    Weighted,
 };
 use gimfit::iteration::{IterationState, UpdateRule};
-use gimfit::knots::place_knots;
+use gimfit::knots::{place_knots, place_least_squares_knots};
 use gimfit::parameters::{Parameters, assign_parameters};
 use gimfit::shape::Shape;
 use gimfit::{KnotPlacement, Parameterization, PointsView};
@@ -69,6 +73,50 @@ fn steps_allocate_nothing() {
             });
             assert_eq!(counted.count_total, 0, "{rule:?}");
             assert!(state.norms().is_finite());
+        }
+    }
+}
+
+#[test]
+fn steps_of_least_squares_allocate_nothing() {
+    const POINTS: usize = 400;
+    const CONTROL: usize = 40;
+    let data = helix(POINTS);
+    let view = PointsView::new(3, &data).unwrap();
+    for closed in [false, true] {
+        let t = assign_parameters(view, closed, &Parameterization::Chord).unwrap();
+        let knots = place_least_squares_knots(3, &t, CONTROL).unwrap();
+        let operator = LeastSquaresCollocation::new(t.values(), &knots).unwrap();
+        let grouped = operator.clone().grouped();
+        let normal = operator.normal_matrix();
+        let matrix = normal.matrix();
+        let length = 3 * CONTROL;
+        let gradients = |preconditioner| ConjugateGradients::new(matrix, preconditioner, 3);
+        let factors = || matrix.factor(None).unwrap();
+        let (low, high) = normal.eigenvalues().unwrap();
+        let rules: [Box<dyn UpdateRule + '_>; 11] = [
+            Box::new(PerPoint::new(normal.reciprocal_sums())),
+            Box::new(GaussSeidel::new(matrix)),
+            Box::new(HeavyBall::best_for(low, high, length)),
+            Box::new(Nesterov::with_restarts(high, length)),
+            Box::new(Scaled::new(normal.reciprocal_sums(), Chebyshev::new(0.1, 1.0, length))),
+            Box::new(SaLspia::new(matrix, high, 3)),
+            Box::new(RandomColumns::new(&normal, 3, 1)),
+            Box::new(RandomRows::new(&operator, &data, 1)),
+            Box::new(gradients(Preconditioner::Identity)),
+            Box::new(gradients(Preconditioner::Diagonal(normal.reciprocal_diagonal()))),
+            Box::new(gradients(Preconditioner::Factors(factors()))),
+        ];
+        let start = &data[..length];
+        for mut rule in rules {
+            for operator in [&operator, &grouped] {
+                let mut state = IterationState::begin_at(operator, &data, start, 3);
+                let counted = allocation_counter::measure(|| {
+                    (0..5).for_each(|_| state.step(rule.as_mut()));
+                });
+                assert_eq!(counted.count_total, 0, "{rule:?}");
+                rule.reset();
+            }
         }
     }
 }

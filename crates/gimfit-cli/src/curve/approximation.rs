@@ -1,9 +1,10 @@
 //! Arguments that ask for few control points within a distance, in place of interpolation.
 
+use crate::arguments::{BasisChoice, CurveArguments, DuplicatesChoice, MethodChoice};
 use crate::values;
-use anyhow::ensure;
+use anyhow::{bail, ensure};
 use clap::Args;
-use gimfit::{ApproximationOptions, Corners, Goal};
+use gimfit::{ApproximationOptions, Corners, CurveOptions, Goal};
 use std::str::FromStr;
 
 /// What interpolation alone has.
@@ -56,14 +57,9 @@ pub(crate) struct ApproximationArguments {
     )]
     pub(crate) rms: Option<f64>,
 
-    /// Come as close as can be with this many control points
-    #[arg(
-        long,
-        value_name = "N",
-        group = "goal",
-        conflicts_with_all = OF_INTERPOLATION,
-        help_heading = "Approximation"
-    )]
+    /// Come as close as can be with this many control points, knots and parameters being sought; with
+    /// a method of least squares, such as --method least-squares, both stay
+    #[arg(long, value_name = "N", group = "goal", help_heading = "Approximation")]
     pub(crate) control_points: Option<usize>,
 
     /// Corners that stay sharp: auto (those that the data show at the scale of the tolerance), none,
@@ -98,6 +94,44 @@ impl FromStr for CornersChoice {
 }
 
 impl ApproximationArguments {
+    /// Refuses what a search for knots and parameters does not have, as clap does for the other
+    /// goals: `--control-points` has it with a method of least squares.
+    pub(crate) fn check(&self, arguments: &CurveArguments) -> anyhow::Result<()> {
+        let Some(_) = self.control_points else { return Ok(()) };
+        let (shape, iteration) = (&arguments.shape, &arguments.iteration);
+        let others = [
+            ("--only", !iteration.only.is_empty()),
+            ("--memory", iteration.memory.is_some()),
+            ("--foot-points", iteration.foot_points.is_some()),
+            ("--rational-weights", shape.rational_weights.is_some()),
+            ("--convex", arguments.convex.is_some()),
+            ("--basis", shape.basis != BasisChoice::BSpline),
+            ("--parameters", shape.parameters.is_some()),
+            ("--knots", shape.knots.is_some()),
+            ("--period", shape.period.is_some()),
+            ("--duplicates", shape.duplicates != DuplicatesChoice::Error),
+            ("--abscissa", arguments.input.abscissa.is_some()),
+            ("--method", iteration.method != MethodChoice::Auto),
+            ("--weight", iteration.weight != "auto"),
+            ("--bandwidth", iteration.bandwidth.is_some()),
+            ("--residual", iteration.residual.is_some()),
+            ("--keep", !iteration.keep.is_empty()),
+            ("--iterations", iteration.iterations != CurveOptions::default().iterations),
+        ];
+        match others.iter().find(|(_, given)| *given) {
+            None => Ok(()),
+            Some(("--method", _)) => bail!(
+                "--method {} goes through all points, --control-points does not: use a method of \
+                 least squares, such as --method least-squares, or none",
+                iteration.method_name()
+            ),
+            Some((name, _)) => bail!(
+                "{name} does not go with --control-points alone, which seeks knots and parameters; \
+                 with --method least-squares they stay"
+            ),
+        }
+    }
+
     /// The options, where an approximation is asked for.
     pub(crate) fn options(
         &self,

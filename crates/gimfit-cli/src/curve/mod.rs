@@ -4,17 +4,19 @@ mod approximation;
 mod draw;
 pub(crate) mod edit;
 mod explain_fit;
+mod least_squares;
 mod plan;
 mod print;
 mod save;
 
 pub(crate) use approximation::ApproximationArguments;
+pub(crate) use least_squares::LeastSquaresArguments;
 
 use crate::Ending;
 use crate::arguments::CurveArguments;
 use crate::basis::described;
 use crate::explain::explain;
-use crate::finish::{Finish, Run};
+use crate::finish::{Finish, Run, Sought};
 use crate::outputs::Wanted;
 use crate::progress::Progress;
 use crate::signal::{self, Stage};
@@ -25,7 +27,7 @@ use gimfit::fit::fit_blending_curve_observed;
 use gimfit::iteration::Observer;
 use gimfit::{
     BlendingOptions, CurveFit, CurveOptions, Error, PointsView, approximate_curve_observed,
-    fit_curve_observed,
+    fit_curve_observed, fit_least_squares_observed,
 };
 use gimfit_io::document::{BlendingData, Document, Seconds, document_of};
 use gimfit_io::points::PointTable;
@@ -111,6 +113,9 @@ pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
         Recipe::Approximate(options) => {
             approximate_curve_observed(view, options, &mut progress).map(|fit| (fit, None))
         }
+        Recipe::LeastSquares(options) => {
+            fit_least_squares_observed(view, options, &mut progress).map(|fit| (fit, None))
+        }
     };
     let fitted = clock.elapsed().as_secs_f64();
     signal::enter(Stage::Writing);
@@ -126,17 +131,16 @@ pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
     let mut job = Job::new(&table, &fit, basis, arguments.samples, seconds);
     job.document.blending = blending;
     let report = &fit.report;
+    let kind = match recipe {
+        Recipe::Approximate(_) => Sought::Distance,
+        Recipe::LeastSquares(_) => Sought::LeastSquares,
+        _ => Sought::Residual,
+    };
     let finish = Finish {
         wanted,
         method: arguments.iteration.method,
         convex: arguments.convex,
-        run: Run {
-            termination: report.run.termination,
-            residual_target: report.run.residual_target,
-            max_residual: report.run.max_residual,
-            iterations: report.run.iterations,
-            approximates: matches!(recipe, Recipe::Approximate(_)),
-        },
+        run: Run::of(&report.run, kind),
     };
     finish.finish(&mut job, print::report)
 }

@@ -1,5 +1,6 @@
 //! From arguments to points and options, with all that can be checked before the run.
 
+use super::least_squares;
 use crate::arguments::{
     ConvexChoice, CurveArguments, DuplicatesChoice, InputArguments, KnotRule, ParameterRule,
     RuleOrFile, ShapeArguments,
@@ -11,7 +12,8 @@ use anyhow::{bail, ensure};
 use gimfit::basis::{BlendingBasis, Rational};
 use gimfit::knots::MAX_DEGREE;
 use gimfit::{
-    ApproximationOptions, Convexity, CurveOptions, KnotPlacement, Method, Parameterization,
+    ApproximationOptions, Convexity, CurveOptions, KnotPlacement, LeastSquaresOptions, Method,
+    Parameterization,
 };
 use gimfit_io::points::PointTable;
 use std::path::Path;
@@ -32,13 +34,24 @@ pub(super) enum Recipe {
     Blend(Arc<dyn BlendingBasis>),
     /// Within a distance, or by few control points.
     Approximate(ApproximationOptions),
+    /// By few control points over knots that are given or follow from the parameters.
+    LeastSquares(LeastSquaresOptions),
 }
 
 impl Plan {
     pub(super) fn new(arguments: &CurveArguments) -> anyhow::Result<Self> {
+        let shape = shape(&arguments.input, &arguments.shape)?;
+        if let Some(options) = least_squares::options(arguments, &shape)? {
+            let Shape { table, options: whole, .. } = shape;
+            let (iterations, keep) = (options.iterations, &options.keep);
+            ensure_kept_fits_fit(keep, iterations, table.coordinates.len(), &table.source)?;
+            let whole = CurveOptions { iterations, ..whole };
+            return Ok(Self { table, options: whole, recipe: Recipe::LeastSquares(options) });
+        }
         let method = method(&arguments.iteration, false)?;
+        arguments.approximation.check(arguments)?;
         let weight = weight(&arguments.iteration.weight)?;
-        let Shape { table, options, basis } = shape(&arguments.input, &arguments.shape)?;
+        let Shape { table, options, basis } = shape;
         let local = only(&arguments.iteration, table.rows(), &table.source)?;
         let numbers = table.coordinates.len();
         ensure_kept_fits_fit(
@@ -212,6 +225,9 @@ pub(super) fn inputs(arguments: &CurveArguments) -> Vec<(&str, &Path)> {
     let mut inputs = shape_inputs(&arguments.input, &arguments.shape);
     if let Some(path) = weight_file(&arguments.iteration.weight) {
         inputs.push(("--weight", path));
+    }
+    if let Some(path) = &arguments.least_squares.data_weights {
+        inputs.push(("--data-weights", path));
     }
     inputs
 }

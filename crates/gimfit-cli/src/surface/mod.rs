@@ -10,7 +10,7 @@ pub(crate) use arguments::SurfaceArguments;
 
 use crate::Ending;
 use crate::basis::described;
-use crate::finish::{Finish, Run};
+use crate::finish::{Finish, Run, Sought};
 use crate::outputs::Wanted;
 use crate::progress::Progress;
 use crate::signal::{self, Stage};
@@ -129,13 +129,7 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
         wanted,
         method: arguments.iteration.method,
         convex: None,
-        run: Run {
-            termination: report.run.termination,
-            residual_target: report.run.residual_target,
-            max_residual: report.run.max_residual,
-            iterations: report.run.iterations,
-            approximates: false,
-        },
+        run: Run::of(&report.run, Sought::Residual),
     };
     finish.finish(&mut job, print::report)
 }

@@ -11,7 +11,7 @@ pub(crate) use samples::{Sample, samples, write_samples};
 
 use crate::Ending;
 use crate::explain::explain;
-use crate::finish::{Finish, Run};
+use crate::finish::{Finish, Run, Sought};
 use crate::input;
 use crate::method::{ensure_kept_fits_fit, method, weight, weight_file};
 use crate::outputs::Wanted;
@@ -101,13 +101,7 @@ pub(crate) fn run(arguments: &TriangleArguments) -> anyhow::Result<Ending> {
         wanted,
         method: iteration.method,
         convex: None,
-        run: Run {
-            termination: report.run.termination,
-            residual_target: report.run.residual_target,
-            max_residual: report.run.max_residual,
-            iterations: report.run.iterations,
-            approximates: false,
-        },
+        run: Run::of(&report.run, Sought::Residual),
     };
     finish.finish(&mut job, print::report)
 }

@@ -19,7 +19,7 @@ pub use read::{
     AnyDocument, DocumentError, is_document, parse_any_document, parse_document, read_document,
 };
 pub use rows::PointRows;
-pub use run::{HistoryRow, LocalData, MovesData, RunData, Seconds};
+pub use run::{HistoryRow, LeastSquaresData, LocalData, MovesData, RunData, Seconds};
 pub use surface::{
     NetFit, SurfaceDocument, SurfaceGeometry, SurfaceKind, SurfaceReportData, surface_document_of,
 };

@@ -14,6 +14,9 @@ pub struct HistoryRow {
     /// Root mean square of the norms; null likewise.
     #[serde(with = "number_or_null")]
     pub rms_residual: f64,
+    /// Of least squares: the largest mean difference vector of a control point.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub normal_residual: Option<f64>,
 }
 
 impl HistoryRow {
@@ -24,6 +27,7 @@ impl HistoryRow {
             iteration: entry.iteration,
             max_residual: entry.max_residual,
             rms_residual: entry.rms_residual,
+            normal_residual: entry.normal_residual.filter(|x| x.is_finite()),
         }
     }
 }
@@ -92,6 +96,16 @@ pub struct LocalData {
     pub outside_max_residual_index: usize,
 }
 
+/// How far a least squares fit is from its limit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct LeastSquaresData {
+    /// Largest mean difference vector of a control point, weighted by how much it takes part: 0 at the
+    /// limit.
+    pub normal_residual: f64,
+    /// Control points that no data point meets.
+    pub unmet_control_points: usize,
+}
+
 /// The account of a run. Lengths are in the unit of the data.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunData {
@@ -124,6 +138,9 @@ pub struct RunData {
     /// The points that took part, where not all did.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub local: Option<LocalData>,
+    /// How far a least squares fit is from its limit; absent for interpolation.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub least_squares: Option<LeastSquaresData>,
     /// Measured times.
     #[serde(default)]
     pub seconds: Option<Seconds>,
@@ -152,6 +169,10 @@ impl RunData {
                 points: local.points,
                 outside_max_residual: local.outside_max_residual,
                 outside_max_residual_index: local.outside_max_residual_index,
+            }),
+            least_squares: run.least_squares.map(|account| LeastSquaresData {
+                normal_residual: account.normal_residual,
+                unmet_control_points: account.unmet_control_points,
             }),
             seconds: None,
             history: run.history.iter().map(HistoryRow::of).collect(),

@@ -104,7 +104,7 @@ impl CollocationOperator for BandedCollocation {
         let (largest, max_index, sum) =
             kernel::residual(self.rows(), data, control, dimension, result);
         let max = if sum.is_finite() { largest.sqrt() } else { f64::NAN };
-        ResidualNorms { max, max_index, rms: (sum / self.first.len() as f64).sqrt() }
+        ResidualNorms { max, max_index, rms: (sum / self.first.len() as f64).sqrt(), normal: None }
     }
 
     fn as_band(&self) -> Option<&BandedCollocation> {
@@ -165,5 +165,5 @@ pub(super) fn norms_of(
         }
     }
     let max = if f64::is_finite(sum) { f64::sqrt(largest.max(0.0)) } else { f64::NAN };
-    ResidualNorms { max, max_index, rms: f64::sqrt(sum / count.max(1) as f64) }
+    ResidualNorms { max, max_index, rms: f64::sqrt(sum / count.max(1) as f64), normal: None }
 }

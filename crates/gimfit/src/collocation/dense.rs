@@ -212,7 +212,7 @@ impl CollocationOperator for DenseCollocation {
             }
         }
         let max = if sum.is_finite() { largest.sqrt() } else { f64::NAN };
-        ResidualNorms { max, max_index, rms: (sum / self.count as f64).sqrt() }
+        ResidualNorms { max, max_index, rms: (sum / self.count as f64).sqrt(), normal: None }
     }
 }
 

@@ -234,5 +234,5 @@ pub(super) fn norms_of(vectors: &[f64], dimension: usize) -> ResidualNorms {
 
 fn norms_from(largest: f64, max_index: usize, sum: f64, count: usize) -> ResidualNorms {
     let max = if f64::is_finite(sum) { f64::sqrt(largest) } else { f64::NAN };
-    ResidualNorms { max, max_index, rms: f64::sqrt(sum / count as f64) }
+    ResidualNorms { max, max_index, rms: f64::sqrt(sum / count as f64), normal: None }
 }

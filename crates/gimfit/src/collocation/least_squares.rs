@@ -5,6 +5,7 @@
 
 use super::BandedCollocation;
 use super::build::collocate;
+use super::kernel::Rows;
 use crate::knots::{Boundary, KnotVector};
 use crate::memory;
 
@@ -30,6 +31,16 @@ impl DataRows {
     /// Control points that move.
     pub(crate) fn columns(&self) -> usize {
         self.columns
+    }
+
+    /// What the kernels take: no row wraps round more than once.
+    pub(super) fn rows(&self) -> Rows<'_> {
+        Rows {
+            width: self.degree + 1,
+            columns: self.columns,
+            first: &self.first,
+            weights: &self.weights,
+        }
     }
 
     fn column(&self, first: i32, k: usize) -> usize {

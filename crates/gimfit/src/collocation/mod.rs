@@ -14,9 +14,12 @@ pub(crate) mod kernel;
 mod layout;
 mod least_squares;
 mod local;
+mod normal;
+mod normal_kernel;
 mod rational_net;
 mod scattered;
 mod spectrum;
+mod symmetric_band;
 mod watch;
 mod window;
 
@@ -31,6 +34,7 @@ pub use layout::{ControlLayout, NetLayout};
 pub(crate) use least_squares::DataRows;
 pub(crate) use local::HeldCollocation;
 pub use local::LocalCollocation;
+pub use normal::{LeastSquaresCollocation, NormalMatrix};
 pub use rational_net::{NetWeights, RationalTensorCollocation};
 pub(crate) use scattered::ScatteredCollocation;
 pub use spectrum::{
@@ -53,7 +57,9 @@ pub trait CollocationOperator: std::fmt::Debug {
     /// Writes `A x` into `result`.
     fn apply(&self, x: &[f64], dimension: usize, result: &mut [f64]);
 
-    /// Writes the difference vectors `Q - A P` and returns their norms.
+    /// Writes the difference vectors `Q - A P` and returns their norms. Where there are more data
+    /// points than control points, what is written are the difference vectors gathered at the control
+    /// points, such as `A^T (Q - A P)`; the norms are those at the data still.
     fn difference_vectors(
         &self,
         data: &[f64],
@@ -132,12 +138,22 @@ pub struct ResidualNorms {
     pub max_index: usize,
     /// Root of the mean squared norm.
     pub rms: f64,
+    /// Of least squares: the largest norm, over the control points, of the mean of the difference
+    /// vectors that each one takes part in, weighted by how much. It is 0 at the least squares fit,
+    /// where difference vectors are not.
+    pub normal: Option<f64>,
 }
 
 impl ResidualNorms {
+    /// What tells how far the iteration is from its limit.
+    #[must_use]
+    pub fn to_limit(&self) -> f64 {
+        self.normal.unwrap_or(self.max)
+    }
+
     /// Whether every difference vector was a number.
     #[must_use]
     pub fn is_finite(&self) -> bool {
-        self.max.is_finite() && self.rms.is_finite()
+        self.max.is_finite() && self.rms.is_finite() && self.to_limit().is_finite()
     }
 }

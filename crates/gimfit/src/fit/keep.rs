@@ -58,14 +58,20 @@ impl<'a> Keeper<'a> {
         self.kept
             .into_iter()
             .map(|(mut entry, control)| {
-                entry.max_residual = scale.undo(entry.max_residual);
-                entry.rms_residual = scale.undo(entry.rms_residual);
+                undo(scale, &mut entry);
                 let stored = (self.expand)(control);
                 let control_points = unscaled(Points::new(self.dimension, stored)?, scale)?;
                 Ok(KeptFit { entry, control_points })
             })
             .collect()
     }
+}
+
+/// Brings residuals back into the unit of the data.
+pub(super) fn undo(scale: PowerOfTwoScale, entry: &mut HistoryEntry) {
+    entry.max_residual = scale.undo(entry.max_residual);
+    entry.rms_residual = scale.undo(entry.rms_residual);
+    entry.normal_residual = entry.normal_residual.map(|x| scale.undo(x));
 }
 
 impl Observer for Keeper<'_> {

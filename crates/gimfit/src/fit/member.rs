@@ -5,12 +5,12 @@ use super::triangle::places;
 use super::{CurveFit, KeptFit, SurfaceFit, TriangleFit};
 use crate::Error;
 use crate::geometry::TriangularPatch;
-use crate::iteration::Termination;
+use crate::iteration::{HistoryEntry, Termination};
 use crate::points::{Extent, PointGrid, Points, PointsView};
 use crate::projection::{
     largest_deviation, largest_surface_deviation_from, largest_triangle_deviation,
 };
-use crate::report::RunReport;
+use crate::report::{LeastSquaresReport, RunReport};
 
 impl CurveFit {
     /// The fit kept at an iteration as a fit of its own: the curve, its difference vectors, and a
@@ -203,7 +203,14 @@ fn measure(
 
 /// The account of the run up to an iteration. Its residuals are those of all points, of local PIA, too.
 fn run_of(run: &RunReport, measured: &Measured, iteration: usize) -> RunReport {
-    let met = run.residual_target > 0.0 && measured.max_residual.0 <= run.residual_target;
+    // Of a least squares fit what was seen on the way counts: residuals stay.
+    let seen = run.history.iter().rev().find(|entry| entry.iteration <= iteration);
+    let least_squares = run.least_squares.map(|account| LeastSquaresReport {
+        normal_residual: seen.map_or(f64::NAN, HistoryEntry::to_limit),
+        ..account
+    });
+    let to_limit = least_squares.map_or(measured.max_residual.0, |account| account.normal_residual);
+    let met = run.residual_target > 0.0 && to_limit <= run.residual_target;
     let mut choices = run.choices.clone();
     choices.push(format!(
         "family: the fit after {iteration} of {} iterations of a run that ended by {}",
@@ -217,6 +224,7 @@ fn run_of(run: &RunReport, measured: &Measured, iteration: usize) -> RunReport {
         max_residual: measured.max_residual.0,
         rms_residual: measured.rms_residual,
         local: None,
+        least_squares,
         history: run.history.iter().filter(|entry| entry.iteration <= iteration).copied().collect(),
         ..run.clone()
     }

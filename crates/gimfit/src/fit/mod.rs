@@ -11,6 +11,7 @@ mod edit;
 mod geometric;
 mod intervals;
 mod keep;
+mod least_squares;
 mod local;
 mod local_surface;
 mod member;
@@ -36,6 +37,10 @@ pub use diagnose::{CurveDiagnosis, diagnose_blending_curve, diagnose_curve};
 pub use diagnose_surface::{SurfaceDiagnosis, diagnose_surface};
 pub use edit::{EditReport, EditableCurve};
 pub use keep::KeptFit;
+pub use least_squares::{
+    LeastSquaresKnots, LeastSquaresMethod, LeastSquaresOptions, LeastSquaresWeight,
+    fit_least_squares, fit_least_squares_observed,
+};
 pub use options::{
     BlendingOptions, BlendingSurfaceOptions, Convexity, CurveOptions, IterationWeight, Method,
     SurfaceOptions, SurfaceWeight, TriangleOptions,

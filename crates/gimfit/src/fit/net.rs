@@ -182,6 +182,7 @@ fn per_direction(
         iteration,
         max_residual: undo(norms.max),
         rms_residual: undo(norms.rms),
+        normal_residual: None,
     };
     let stage = |run: &RunReport| {
         let start = run.history.first().map_or(0.0, |entry| entry.max_residual);
@@ -218,6 +219,7 @@ fn per_direction(
         rms_residual: undo(norms.rms),
         smallest_eigenvalue: eigenvalues.map(|(u, v)| u * v),
         foot_points: None,
+        least_squares: None,
         history: vec![entry(0, before), entry(iterations, norms)],
     };
     let solved =

@@ -57,13 +57,13 @@ pub(super) fn prepare<'a>(
     }
     let dimension = points.dimension();
     let cleaned = if matches!(parameterization, Parameterization::Given(_)) {
-        let points = open_up(points, diagonal, options, &parameterization, &mut choices)?;
+        let points = open_up(points, diagonal, options.closed, &parameterization, &mut choices)?;
         clean_points(points, options, &mut parameterization, &mut choices)?
     } else {
         // The closing point itself may be repeated.
         let mut cleaned = clean_points(points, options, &mut parameterization, &mut choices)?;
         let view = PointsView::new(dimension, &cleaned.coordinates)?;
-        let left = open_up(view, diagonal, options, &parameterization, &mut choices)?.len();
+        let left = open_up(view, diagonal, options.closed, &parameterization, &mut choices)?.len();
         cleaned.truncate(left, dimension);
         cleaned
     };
@@ -88,14 +88,14 @@ pub(super) fn check_extent(extent: &Extent) -> Result<(), Error> {
 }
 
 /// Takes the repetition of the first point off the end of a closed curve.
-fn open_up<'a>(
+pub(super) fn open_up<'a>(
     points: PointsView<'a>,
     diagonal: f64,
-    options: &CurveOptions,
+    closed: bool,
     parameterization: &Parameterization,
     choices: &mut Vec<String>,
 ) -> Result<PointsView<'a>, Error> {
-    if !options.closed || points.len() < 2 {
+    if !closed || points.len() < 2 {
         return Ok(points);
     }
     let last = points.len() - 1;

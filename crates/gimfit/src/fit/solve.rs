@@ -1,14 +1,14 @@
 //! What every recipe shares: run a rule to its stop, look at what it left, and bring everything
 //! back into the unit of the data.
 
-use super::keep::Keeper;
+use super::keep::{Keeper, undo};
 use super::method::ChosenRule;
 use super::{Convexity, KeptFit};
 use crate::Error;
 use crate::collocation::{CollocationOperator, ResidualNorms};
 use crate::iteration::{IterationState, Observer, Outcome, ROUNDING, Stopping, Termination, run};
 use crate::points::{Extent, Points, PowerOfTwoScale};
-use crate::report::RunReport;
+use crate::report::{LeastSquaresReport, RunReport};
 
 /// Share of the extent that a residual may keep by default.
 pub(super) const DEFAULT_RESIDUAL: f64 = 1e-12;
@@ -124,10 +124,20 @@ pub(super) fn solve(
     chosen: &mut ChosenRule<'_>,
     observer: &mut dyn Observer,
 ) -> Result<Solved, Error> {
+    solve_from(task, task.data, chosen, observer)
+}
+
+/// Runs a rule from given control points, scaled as the data, to its stop.
+pub(super) fn solve_from(
+    task: &Task<'_>,
+    start: &[f64],
+    chosen: &mut ChosenRule<'_>,
+    observer: &mut dyn Observer,
+) -> Result<Solved, Error> {
     let &Task { operator, data, dimension, size, stopping, keep, expand } = task;
     let scale = size.scale;
     let mut choices = std::mem::take(&mut chosen.choices);
-    let mut state = IterationState::begin(operator, data, dimension);
+    let mut state = IterationState::begin_at(operator, data, start, dimension);
     let mut keeper = Keeper::new(keep, expand, dimension, observer);
     let outcome = run(&mut state, chosen.rule.as_mut(), stopping, &mut keeper);
     let sequence = keeper.finish(scale, &outcome, &mut choices)?;
@@ -139,7 +149,7 @@ pub(super) fn solve(
     }
     let reached_rounding = state.rounding_level();
     let mut target = stopping.residual;
-    if termination == Termination::Residual && norms.max > target {
+    if termination == Termination::Residual && norms.to_limit() > target {
         target = reached_rounding;
         choices.push(format!(
             "residual: {:e}, what rounding leaves with control points this large",
@@ -154,10 +164,7 @@ pub(super) fn solve(
              centripetal parameters"
         ));
     }
-    for entry in &mut history {
-        entry.max_residual = scale.undo(entry.max_residual);
-        entry.rms_residual = scale.undo(entry.rms_residual);
-    }
+    history.iter_mut().for_each(|entry| undo(scale, entry));
     let iteration_returned = state.iteration();
     let (control, vectors) = state.into_parts();
     let run = RunReport {
@@ -174,6 +181,10 @@ pub(super) fn solve(
         updates: chosen.rule.updates(),
         local: None,
         foot_points: None,
+        least_squares: norms.normal.map(|normal| LeastSquaresReport {
+            normal_residual: scale.undo(normal),
+            unmet_control_points: 0,
+        }),
         history,
     };
     Ok(Solved { control, vectors, norms, run, sequence })

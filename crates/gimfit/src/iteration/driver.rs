@@ -66,5 +66,10 @@ pub fn run(
 
 fn entry_of(state: &IterationState<'_>) -> HistoryEntry {
     let norms = state.norms();
-    HistoryEntry { iteration: state.iteration(), max_residual: norms.max, rms_residual: norms.rms }
+    HistoryEntry {
+        iteration: state.iteration(),
+        max_residual: norms.max,
+        rms_residual: norms.rms,
+        normal_residual: norms.normal,
+    }
 }

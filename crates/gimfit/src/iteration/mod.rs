@@ -3,6 +3,7 @@
 
 mod driver;
 mod observer;
+mod random;
 mod state;
 mod stopping;
 mod trace;

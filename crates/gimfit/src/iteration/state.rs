@@ -14,9 +14,11 @@ pub struct IterationState<'a> {
     operator: &'a dyn CollocationOperator,
     data: &'a [f64],
     dimension: usize,
-    /// Empty until the first step: before it, the control points are the data.
+    start: &'a [f64],
+    /// Empty until the first step: before it, the control points are those of the start.
     control: Vec<f64>,
-    /// Difference vectors between steps; a rule turns them into adjusting vectors in place.
+    /// Difference vectors between steps, one per control point; a rule turns them into adjusting
+    /// vectors in place.
     vectors: Vec<f64>,
     norms: ResidualNorms,
     iteration: usize,
@@ -27,13 +29,26 @@ impl<'a> IterationState<'a> {
     /// (points, dimension).
     #[must_use]
     pub fn begin(operator: &'a dyn CollocationOperator, data: &'a [f64], dimension: usize) -> Self {
+        Self::begin_at(operator, data, data, dimension)
+    }
+
+    /// Starts from given control points, of shape (control points, dimension), which may be fewer
+    /// than the data points.
+    #[must_use]
+    pub fn begin_at(
+        operator: &'a dyn CollocationOperator,
+        data: &'a [f64],
+        start: &'a [f64],
+        dimension: usize,
+    ) -> Self {
         operator.reset();
         let mut state = Self {
             operator,
             data,
             dimension,
-            control: memory::with_capacity(data.len()),
-            vectors: memory::zeros(data.len()),
+            start,
+            control: memory::with_capacity(start.len()),
+            vectors: memory::zeros(start.len()),
             norms: ResidualNorms::default(),
             iteration: 0,
         };
@@ -52,11 +67,11 @@ impl<'a> IterationState<'a> {
     /// One step: adjusting vectors from the rule, added to the control points; then the new
     /// difference vectors. Allocates nothing.
     pub fn step(&mut self, rule: &mut dyn UpdateRule) {
-        let control = if self.control.is_empty() { self.data } else { &self.control };
+        let control = if self.control.is_empty() { self.start } else { &self.control };
         let step = Step { iteration: self.iteration, control, dimension: self.dimension };
         rule.adjust(step, &mut self.vectors);
         if self.control.is_empty() {
-            self.control.extend(self.data.iter().zip(&self.vectors).map(|(q, delta)| q + delta));
+            self.control.extend(self.start.iter().zip(&self.vectors).map(|(q, delta)| q + delta));
         } else {
             self.control.iter_mut().zip(&self.vectors).for_each(|(p, delta)| *p += delta);
         }
@@ -65,7 +80,7 @@ impl<'a> IterationState<'a> {
     }
 
     fn measure(&mut self) {
-        let control = if self.control.is_empty() { self.data } else { &self.control };
+        let control = if self.control.is_empty() { self.start } else { &self.control };
         self.norms =
             self.operator.difference_vectors(self.data, control, self.dimension, &mut self.vectors);
     }
@@ -98,10 +113,11 @@ impl<'a> IterationState<'a> {
     /// The control points held, shape (points, dimension).
     #[must_use]
     pub fn control(&self) -> &[f64] {
-        if self.control.is_empty() { self.data } else { &self.control }
+        if self.control.is_empty() { self.start } else { &self.control }
     }
 
-    /// Their difference vectors, shape (points, dimension).
+    /// Their difference vectors, shape (control points, dimension): of least squares those gathered at
+    /// the control points.
     #[must_use]
     pub fn difference_vectors(&self) -> &[f64] {
         &self.vectors
@@ -117,7 +133,7 @@ impl<'a> IterationState<'a> {
     #[must_use]
     pub fn into_parts(mut self) -> (Vec<f64>, Vec<f64>) {
         if self.control.is_empty() {
-            self.control.extend_from_slice(self.data);
+            self.control.extend_from_slice(self.start);
         }
         (self.control, self.vectors)
     }

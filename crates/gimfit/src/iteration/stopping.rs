@@ -43,7 +43,9 @@ impl fmt::Display for Termination {
     }
 }
 
-/// When an iteration stops.
+/// When an iteration stops. The residual judged is the largest norm of a difference vector; of least
+/// squares, which leaves residuals, the largest mean difference vector of a control point
+/// ([`HistoryEntry::to_limit`]).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stopping {
     /// Largest residual to be reached, in the unit of the data; 0 runs all iterations.
@@ -69,11 +71,18 @@ pub(super) struct StoppingRule {
     first: f64,
     best: f64,
     best_iteration: usize,
+    /// The root mean square when it last fell, and the iteration.
+    least: f64,
+    fell: usize,
 }
+
+/// By how much the root mean square of least squares must fall to count as a gain.
+const FALL: f64 = 1.0 - 1e-9;
 
 impl StoppingRule {
     pub(super) fn new(settings: Stopping) -> Self {
-        Self { settings, first: f64::NAN, best: f64::INFINITY, best_iteration: 0 }
+        let (first, best, least) = (f64::NAN, f64::INFINITY, f64::INFINITY);
+        Self { settings, first, best, best_iteration: 0, least, fell: 0 }
     }
 
     /// Iteration of the smallest residual met.
@@ -90,7 +99,8 @@ impl StoppingRule {
         rounding_level: impl Fn() -> f64,
     ) -> Option<Termination> {
         let Stopping { residual, max_iterations, accept_rounding } = self.settings;
-        let HistoryEntry { iteration, max_residual, rms_residual } = entry;
+        let HistoryEntry { iteration, rms_residual, .. } = entry;
+        let max_residual = entry.to_limit();
         if iteration == 0 {
             self.first = max_residual;
         }
@@ -110,7 +120,12 @@ impl StoppingRule {
         if iteration >= max_iterations {
             return Some(Termination::Iterations);
         }
-        let without_gain = iteration - self.best_iteration;
+        // What least squares makes smallest is the root mean square; the normal residual may rest
+        // meanwhile, where few data meet a control point.
+        if entry.normal_residual.is_some() && rms_residual < FALL * self.least {
+            (self.least, self.fell) = (rms_residual, iteration);
+        }
+        let without_gain = iteration - self.best_iteration.max(self.fell);
         if residual == 0.0 || without_gain == 0 {
             return None;
         }
@@ -131,7 +146,8 @@ mod tests {
     fn end(settings: Stopping, residuals: impl Iterator<Item = f64>) -> (Termination, usize) {
         let mut rule = StoppingRule::new(settings);
         for (iteration, r) in residuals.enumerate() {
-            let entry = HistoryEntry { iteration, max_residual: r, rms_residual: r };
+            let entry =
+                HistoryEntry { iteration, max_residual: r, rms_residual: r, normal_residual: None };
             if let Some(reason) = rule.judge(entry, || 1e-15) {
                 return (reason, iteration);
             }

@@ -9,6 +9,18 @@ pub struct HistoryEntry {
     pub max_residual: f64,
     /// Root mean square of the norms.
     pub rms_residual: f64,
+    /// Of least squares: [`ResidualNorms::normal`](crate::collocation::ResidualNorms::normal), the
+    /// largest mean difference vector of a control point, which falls to 0 where residuals do not.
+    pub normal_residual: Option<f64>,
+}
+
+impl HistoryEntry {
+    /// What tells how far the iteration is from its limit: the normal residual where there is one,
+    /// otherwise the largest residual.
+    #[must_use]
+    pub fn to_limit(&self) -> f64 {
+        self.normal_residual.unwrap_or(self.max_residual)
+    }
 }
 
 /// Entries a trace holds at most.
@@ -66,7 +78,12 @@ mod tests {
     fn a_long_run_keeps_its_first_and_last_entry_in_bounded_memory() {
         let mut trace = Trace::with_room_for(usize::MAX);
         for iteration in 0..123_457 {
-            trace.push(HistoryEntry { iteration, max_residual: 1.0, rms_residual: 1.0 });
+            trace.push(HistoryEntry {
+                iteration,
+                max_residual: 1.0,
+                rms_residual: 1.0,
+                normal_residual: None,
+            });
         }
         let entries = trace.into_entries();
         assert!(entries.len() <= MAX_ENTRIES && entries.len() > MAX_ENTRIES / 4);

@@ -185,7 +185,13 @@ fn given_periodic(
         });
     }
     let vector = KnotVector::periodic(degree, knots.to_vec())?;
-    let (start, end) = vector.domain();
+    check_period(&vector, period)?;
+    Ok(vector)
+}
+
+/// The domain of a closed curve's knots is as long as the period of the parameters.
+pub(crate) fn check_period(knots: &KnotVector, period: f64) -> Result<(), Error> {
+    let (start, end) = knots.domain();
     if ((end - start) - period).abs() > 1e-9 * period {
         return Err(Error::OutOfRange {
             what: "length of the knots' domain".into(),
@@ -193,7 +199,7 @@ fn given_periodic(
             rule: "it must equal the period of the parameters",
         });
     }
-    Ok(vector)
+    Ok(())
 }
 
 fn check_domain(knots: &KnotVector, t: &[f64]) -> Result<(), Error> {
@@ -216,7 +222,7 @@ fn require_odd(degree: usize, what: &'static str) -> Result<(), Error> {
 }
 
 /// Means of ascending values ascend, but for the rounding of their sums.
-fn keep_from_falling(knots: &mut [f64]) {
+pub(super) fn keep_from_falling(knots: &mut [f64]) {
     let mut highest = f64::NEG_INFINITY;
     for knot in knots {
         highest = highest.max(*knot);

@@ -9,7 +9,7 @@ mod triangle;
 
 pub use approximation::ApproximationReport;
 pub use curve::CurveReport;
-pub use run::{FootPointReport, LocalReport, RunReport};
+pub use run::{FootPointReport, LeastSquaresReport, LocalReport, RunReport};
 pub use shape::ShapeReport;
 pub use surface::SurfaceReport;
 pub use triangle::TriangleReport;

@@ -43,6 +43,8 @@ pub struct RunReport {
     pub local: Option<LocalReport>,
     /// How the foot points of geometric interpolation fared.
     pub foot_points: Option<FootPointReport>,
+    /// How far a least squares fit is from its limit; `None` for interpolation.
+    pub least_squares: Option<LeastSquaresReport>,
     /// Residuals step by step.
     pub history: Vec<HistoryEntry>,
 }
@@ -58,7 +60,36 @@ pub struct LocalReport {
     pub outside_max_residual_index: usize,
 }
 
+/// How far a least squares fit is from its limit, and what the data left free.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LeastSquaresReport {
+    /// Largest norm, over the control points, of the mean of the difference vectors that a control
+    /// point takes part in, weighted by how much: 0 at the limit. It is what stops the run.
+    pub normal_residual: f64,
+    /// Control points whose functions no data point meets: they stay where they started.
+    pub unmet_control_points: usize,
+}
+
 impl RunReport {
+    /// What the run stops by: the largest residual, or the normal residual of least squares.
+    #[must_use]
+    pub fn to_limit(&self) -> f64 {
+        self.least_squares.map_or(self.max_residual, |account| account.normal_residual)
+    }
+
+    /// How much of that a step left towards the end of the run: the mean factor of the last third of
+    /// the steps. `None` of fewer than three steps, or where rounding or a stop at 0 leaves no ratio.
+    #[must_use]
+    pub fn rate(&self) -> Option<f64> {
+        let last = self.history.last()?;
+        let from = last.iteration - last.iteration / 3;
+        let first = self.history.iter().rev().find(|entry| entry.iteration <= from)?;
+        let steps = last.iteration - first.iteration;
+        let ratio = last.to_limit() / first.to_limit();
+        (last.iteration >= 3 && steps > 0 && ratio > 0.0 && ratio.is_finite())
+            .then(|| ratio.powf((steps as f64).recip()))
+    }
+
     /// Whether the run reached what was asked of it.
     #[must_use]
     pub fn converged(&self) -> bool {

@@ -8,7 +8,7 @@ use crate::Ending;
 use crate::arguments::{BasisChoice, InputArguments, KnotRule, MethodChoice, RuleOrFile};
 use crate::arguments::{ShapeArguments, WritingArguments};
 use crate::explain::explain;
-use crate::finish::{Finish, Run};
+use crate::finish::{Finish, Run, Sought};
 use crate::outputs::Wanted;
 use crate::report_text::time;
 use crate::signal::{self, Stage};
@@ -104,13 +104,7 @@ pub(crate) fn run(arguments: &EditArguments) -> anyhow::Result<Ending> {
         wanted,
         method: MethodChoice::Auto,
         convex: None,
-        run: Run {
-            termination: run.termination,
-            residual_target: run.residual_target,
-            max_residual: run.max_residual,
-            iterations: run.iterations,
-            approximates: false,
-        },
+        run: Run::of(run, Sought::Residual),
     };
     finish.finish(&mut job, print::report)
 }

@@ -156,6 +156,7 @@ pub fn approximate_curve_observed<'a>(
                 iteration: rounds + round,
                 max_residual: largest,
                 rms_residual: rms,
+                normal_residual: None,
             };
             trace.push(entry);
             observer.observe(Snapshot { entry, control: &attempt.control }) == Flow::Continue
@@ -226,6 +227,7 @@ pub fn approximate_curve_observed<'a>(
         iteration: rounds + 1,
         max_residual: account.max_distance,
         rms_residual: account.rms_distance,
+        normal_residual: None,
     });
     let run = RunReport {
         updates: None,
@@ -241,6 +243,7 @@ pub fn approximate_curve_observed<'a>(
         max_residual: account.max_distance,
         rms_residual: account.rms_distance,
         smallest_eigenvalue: None,
+        least_squares: None,
         history: trace.into_entries(),
     };
     let report = CurveReport {

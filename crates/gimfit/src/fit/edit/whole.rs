@@ -205,7 +205,13 @@ impl EditableCurve {
             updates: None,
             local: None,
             foot_points: None,
-            history: vec![HistoryEntry { iteration: iterations, max_residual, rms_residual }],
+            least_squares: None,
+            history: vec![HistoryEntry {
+                iteration: iterations,
+                max_residual,
+                rms_residual,
+                normal_residual: None,
+            }],
         };
         let report = CurveReport {
             points: view.len(),

@@ -6,14 +6,20 @@ mod adaptive;
 mod anderson;
 mod chebyshev;
 mod closest;
+mod conjugate_gradients;
 mod convex;
 mod gauss_seidel;
 mod grid;
+mod heavy_ball;
 mod jacobi;
 mod local;
+mod nesterov;
 mod net_preconditioned;
 mod pia;
 mod preconditioned;
+mod random_columns;
+mod random_rows;
+mod salspia;
 mod staged;
 mod weighted;
 
@@ -21,16 +27,22 @@ pub use adaptive::{Adaptive, AdaptiveRows};
 pub use anderson::Anderson;
 pub use chebyshev::Chebyshev;
 pub use closest::ClosestConvex;
+pub use conjugate_gradients::{ConjugateGradients, Preconditioner};
 pub use convex::ConvexityPreserving;
 pub use gauss_seidel::{GaussSeidel, Sor};
 pub use grid::{Across, Along, Both, Rescaled};
+pub use heavy_ball::HeavyBall;
 pub use jacobi::Jacobi;
 pub use local::Local;
+pub use nesterov::Nesterov;
 pub use net_preconditioned::NetPreconditioned;
 pub use pia::Pia;
 pub use preconditioned::Preconditioned;
+pub use random_columns::RandomColumns;
+pub use random_rows::RandomRows;
+pub use salspia::SaLspia;
 pub use staged::Staged;
-pub use weighted::{PerPoint, Weighted};
+pub use weighted::{PerPoint, Scaled, Weighted};
 
 /// Where a run stands when a step is taken.
 #[derive(Debug, Clone, Copy)]
@@ -52,7 +64,8 @@ pub struct UpdateCounts {
     pub saved: usize,
 }
 
-/// Turns difference vectors, one per data point, into adjusting vectors, one per control point.
+/// Turns difference vectors, one per control point, into adjusting vectors. Of an interpolation they
+/// are those of the data points; of least squares those that the operator has gathered.
 pub trait UpdateRule: std::fmt::Debug {
     /// Works in place on vectors of shape (points, dimension). Allocates nothing after its first
     /// call.

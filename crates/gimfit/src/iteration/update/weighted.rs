@@ -54,3 +54,33 @@ impl UpdateRule for PerPoint {
         }
     }
 }
+
+/// A rule after difference vectors were weighted: on `W A` in place of A.
+#[derive(Debug, Clone)]
+pub struct Scaled<R> {
+    weights: PerPoint,
+    rule: R,
+}
+
+impl<R: UpdateRule> Scaled<R> {
+    /// Weights the difference vector of point `j` by `weights[j]` before the rule.
+    #[must_use]
+    pub fn new(weights: Vec<f64>, rule: R) -> Self {
+        Self { weights: PerPoint::new(weights), rule }
+    }
+}
+
+impl<R: UpdateRule> UpdateRule for Scaled<R> {
+    fn adjust(&mut self, step: Step<'_>, vectors: &mut [f64]) {
+        self.weights.adjust(step, vectors);
+        self.rule.adjust(step, vectors);
+    }
+
+    fn is_stuck(&self) -> bool {
+        self.rule.is_stuck()
+    }
+
+    fn reset(&mut self) {
+        self.rule.reset();
+    }
+}
