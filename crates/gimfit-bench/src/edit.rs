@@ -25,17 +25,17 @@ pub const NOTE: &str =
 pub const SIZES: &str = "1000,10000,100000,1000000";
 
 /// Edits of each kind at most.
-const MOST: usize = 3000;
+pub(crate) const MOST: usize = 3000;
 
 /// Seconds and control points touched of edits of one kind.
 #[derive(Debug, Default)]
-struct Kind {
-    seconds: Vec<f64>,
-    touched: usize,
+pub(crate) struct Kind {
+    pub(crate) seconds: Vec<f64>,
+    pub(crate) touched: usize,
 }
 
 impl Kind {
-    fn account(&self) -> Value {
+    pub(crate) fn account(&self) -> Value {
         json!({
             "median": median(&self.seconds),
             "slowest": self.seconds.iter().copied().fold(0.0, f64::max),
@@ -123,7 +123,7 @@ fn edit(curve: &mut EditableCurve, seconds: f64) -> Result<[Kind; 3], Error> {
 }
 
 /// Largest distance between points of the same number.
-fn farthest(a: &Points, b: &Points) -> f64 {
+pub(crate) fn farthest(a: &Points, b: &Points) -> f64 {
     let gaps = a.iter().zip(b.iter());
     let squares = gaps.map(|(a, b)| a.iter().zip(b).map(|(x, y)| (x - y) * (x - y)).sum::<f64>());
     squares.fold(0.0, f64::max).sqrt()

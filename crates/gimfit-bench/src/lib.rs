@@ -4,6 +4,7 @@
 pub mod clock;
 pub mod data;
 pub mod edit;
+pub mod edit_surface;
 pub mod memory;
 pub mod nearest;
 pub mod report;

@@ -7,7 +7,7 @@ use anyhow::{bail, ensure};
 use clap::Parser;
 use gimfit_bench::report::{self, PEER};
 use gimfit_bench::workload::Workload;
-use gimfit_bench::{edit, nearest, surface};
+use gimfit_bench::{edit, edit_surface, nearest, surface};
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -20,7 +20,8 @@ struct Arguments {
     #[arg(long, exclusive = true)]
     list: bool,
     /// W1, W2 or W3, then gimfit.interpolate, then the number of points (of W3: in a row); or W7,
-    /// gimfit.nearest, and the number of queries; or W10, gimfit.edit, and the number of points
+    /// gimfit.nearest, and the number of queries; or W10 or W10-grid, gimfit.edit, and the number of
+    /// points, of a grid in a row
     #[arg(value_names = ["WORKLOAD", "PEER", "SIZE"], num_args = 3)]
     case: Vec<String>,
     /// How long to repeat the case; otherwise $BENCH_SECONDS, or 3
@@ -43,6 +44,8 @@ fn main() -> anyhow::Result<()> {
         writeln!(output, "{name}\t{peer}\t{}\t{}", nearest::SIZES, nearest::NOTE)?;
         let (name, peer) = (edit::NAME, edit::PEER);
         writeln!(output, "{name}\t{peer}\t{}\t{}", edit::SIZES, edit::NOTE)?;
+        let (name, note) = (edit_surface::NAME, edit_surface::NOTE);
+        writeln!(output, "{name}\t{peer}\t{}\t{note}", edit_surface::SIZES)?;
         return Ok(());
     }
     let [workload, peer, size] = arguments.case.as_slice() else {
@@ -50,7 +53,7 @@ fn main() -> anyhow::Result<()> {
     };
     let expected = match workload.as_str() {
         nearest::NAME => nearest::PEER,
-        edit::NAME => edit::PEER,
+        edit::NAME | edit_surface::NAME => edit::PEER,
         _ => PEER,
     };
     ensure!(peer == expected, "there is no peer {peer}; ours is {expected}");
@@ -62,6 +65,7 @@ fn main() -> anyhow::Result<()> {
     };
     let result = match workload.as_str() {
         nearest::NAME => nearest::run(size, seconds, control_points)?,
+        edit_surface::NAME => edit_surface::run(size, seconds, control_points)?,
         edit::NAME => edit::run(size, seconds, control_points)?,
         _ => report::run(workload, size, seconds, control_points)?,
     };

@@ -48,6 +48,14 @@ impl Grid {
         })
     }
 
+    /// The grid as a fit takes it.
+    ///
+    /// # Errors
+    /// None for a grid that was read.
+    pub fn view(&self) -> Result<GridView<'_>, gimfit::Error> {
+        GridView::new([self.count; 2], DIMENSION, &self.points)
+    }
+
     /// What the fit is asked for.
     #[must_use]
     pub fn options(&self) -> SurfaceOptions {
@@ -69,7 +77,7 @@ impl Grid {
     /// # Errors
     /// What is wrong with the data.
     pub fn interpolate(&self, options: &SurfaceOptions) -> Result<SurfaceFit, gimfit::Error> {
-        fit_surface(GridView::new([self.count; 2], DIMENSION, &self.points)?, options)
+        fit_surface(self.view()?, options)
     }
 
     /// Residuals found by evaluating the surface at every point of every seventh row and column, and
@@ -79,7 +87,7 @@ impl Grid {
     /// If the surface is not the one asked for.
     pub fn check(&self, fit: &SurfaceFit) -> anyhow::Result<Residuals> {
         ensure!(fit.report.points == [self.count; 2], "{:?} points", fit.report.points);
-        let grid = GridView::new([self.count; 2], DIMENSION, &self.points)?;
+        let grid = self.view()?;
         let (mut largest, mut sum, mut looked_at) = (0.0_f64, 0.0, 0.0);
         let mut found = [0.0; DIMENSION];
         let some = |k: &usize| k.is_multiple_of(7) || k + 1 == self.count;

@@ -81,7 +81,6 @@ fn wrong_edits_name_the_option_and_write_nothing() {
         ("--move 3=1", "1 number is given, but the points have 2"),
         ("--insert 3=1,2,3", "3 numbers are given"),
         ("--move 3=1e300,0", "--move 3=1e300,0: the fit leaves the range"),
-        ("--closed --remove 3", "--closed"),
         ("--knots not-a-knot --remove 3", "--knots"),
         ("--basis bernstein --remove 3", "--basis"),
         ("--residual 0 --remove 3", "--residual"),
@@ -110,4 +109,86 @@ fn values_of_dimension_1_and_files_of_other_formats() {
     place.run("edit one.csv --columns y --remove 2 -o out.svg -o out.csv --samples 5").code(0);
     assert!(place.read("out.svg").contains("<svg") && place.read("out.csv").lines().count() == 6);
     place.run("edit nowhere.csv --remove 2").code(2).says(&["nowhere.csv"]);
+}
+
+/// The outline of a letter: its points on both sides of the seam are edited.
+#[test]
+fn closed_curves_are_edited_across_the_seam() {
+    let place = Place::new();
+    let round = |k: u32| (std::f64::consts::TAU * f64::from(k) / 200.0).sin_cos();
+    let points: Vec<(f64, f64)> = (0..200).map(round).collect();
+    let csv: String = points.iter().map(|(y, x)| format!("{x:?},{y:?}\n")).collect();
+    place.write("circle.csv", format!("x,y\n{csv}"));
+    let edits = "--move 1=1.05,0 --insert 201=1,-0.012 --remove 30";
+    let run = place.run(&format!("edit circle.csv --closed {edits} -o out.json")).code(0);
+    assert!(
+        run.out.contains("closed") && run.out.contains("moved 1: control points 1"),
+        "{}",
+        run.out
+    );
+    let found: Value = serde_json::from_str(&place.read("out.json")).unwrap();
+    assert_eq!(found["geometry"]["periodic"], true);
+    assert!(found["report"]["max_residual"].as_f64().unwrap() < 1e-11);
+    // The curve passes through the moved point at its parameter.
+    let t = found["parameters"][0].as_f64().unwrap();
+    place.write("t.txt", format!("{t:?}\n"));
+    let at = place.run("evaluate out.json --at t.txt").code(0);
+    let last = at.out.lines().last().unwrap();
+    let x: f64 = last.split(',').nth(1).unwrap().parse().unwrap();
+    assert!((x - 1.05).abs() < 1e-12, "{last}");
+}
+
+#[test]
+fn points_of_a_grid_move_and_the_fit_is_that_of_the_moved_grid() {
+    let place = Place::new();
+    let cell = |i: u32, j: u32| {
+        let (x, y) = (f64::from(i), f64::from(j) * 0.5);
+        [x, y, (0.7 * x).sin() + y.cos()]
+    };
+    let grid = |moved: bool| -> String {
+        let rows = (0..40_u32).flat_map(|i| {
+            (0..30_u32).map(move |j| {
+                let mut p = cell(i, j);
+                if moved && (i, j) == (7, 4) {
+                    p = [7.25, 2.0, -0.5];
+                }
+                format!("{i},{j},{:?},{:?},{:?}\n", p[0], p[1], p[2])
+            })
+        });
+        format!("row,column,x,y,z\n{}", rows.collect::<String>())
+    };
+    place.write("grid.csv", grid(false));
+    place.write("moved.csv", grid(true));
+    let edit = "--move 8,5=7.25,2,-0.5 --parameters uniform";
+    let run = place.run(&format!("surface grid.csv {edit} -o out.json -o out.svg")).code(0);
+    assert!(run.out.contains("moved 8,5: control points of rows 1 to"), "{}", run.out);
+    assert!(run.out.contains("edits: 1, each by local PIA"), "{}", run.out);
+    let found: Value = serde_json::from_str(&place.read("out.json")).unwrap();
+    let whole = document(&place, "surface moved.csv --parameters uniform -q -o -");
+    let net = |document: &Value| -> Vec<f64> {
+        let rows: Vec<Vec<Vec<f64>>> =
+            serde_json::from_value(document["geometry"]["control_points"].clone()).unwrap();
+        rows.concat().concat()
+    };
+    assert_eq!(net(&found).len(), net(&whole).len());
+    for (a, b) in net(&found).iter().zip(&net(&whole)) {
+        assert!((a - b).abs() < 1e-10, "{a} {b}");
+    }
+    for (rest, words) in [
+        ("--move 8=1,2,3", "a row, a column and a place"),
+        ("--move 8,5", "a row, a column and a place"),
+        ("--move 0,5=1,2,3", "count from 1"),
+        ("--move a,5=1,2,3", "not the number of a row"),
+        ("--move 41,5=1,2,3", "no row 41"),
+        ("--move 1,31=1,2,3", "no column 31"),
+        ("--move 1,3=1,2", "2 numbers are given, but the points have 3"),
+        ("--move 1,3=1,2,inf", "finite"),
+        ("--move 1,3=1e300,2,3", "--move 1,3=1e300,2,3: the fit leaves the range"),
+        ("--move 1,3=1,2,3 --only 1,1", "--only"),
+        ("--move 1,3=1,2,3 --keep 0", "--keep"),
+        ("--move 1,3=1,2,3 --method geometric", "foot points"),
+    ] {
+        place.run(&format!("surface grid.csv {rest} -o bad.json")).code(2).says(&[words]);
+        assert!(!place.path("bad.json").exists(), "{rest}");
+    }
 }

@@ -76,6 +76,25 @@ pub fn averaged_knots(p: usize, t: &[f64]) -> Vec<f64> {
     u
 }
 
+/// The collocation matrix of a closed curve over averaged knots: function `i` starts at the mean of the
+/// `p` parameters before parameter `i`, and is met in every round.
+#[must_use]
+pub fn closed_collocation_matrix(p: usize, t: &[f64], period: f64) -> Vec<Vec<f64>> {
+    let n = t.len() as isize;
+    let round = |j: isize| t[j.rem_euclid(n) as usize] + j.div_euclid(n) as f64 * period;
+    let knot = |i: isize| (i - p as isize..i).map(round).sum::<f64>() / p as f64;
+    let mut rows = vec![vec![0.0; t.len()]; t.len()];
+    for i in -2 * n..3 * n {
+        let knots: Vec<f64> = (i..=i + p as isize + 1).map(knot).collect();
+        for (row, &t) in rows.iter_mut().zip(t) {
+            if knots[0] <= t && t <= knots[p + 1] {
+                row[i.rem_euclid(n) as usize] += basis_function(&knots, p, 0, t);
+            }
+        }
+    }
+    rows
+}
+
 /// Cumulated chord lengths on [0, 1].
 #[must_use]
 pub fn chord_parameters(points: &[Vec<f64>]) -> Vec<f64> {

@@ -262,7 +262,6 @@ fn a_refused_edit_changes_nothing() {
 fn curves_that_are_no_local_matter_are_refused() {
     let data = walk(2, 40, 2);
     for options in [
-        CurveOptions { closed: true, ..options(3) },
         CurveOptions { knot_placement: Some(KnotPlacement::NotAKnot), ..options(5) },
         CurveOptions { knot_placement: Some(KnotPlacement::AtData), ..options(3) },
         CurveOptions { rational_weights: Some(vec![2.0; 40]), ..options(3) },

@@ -1,6 +1,7 @@
 //! What can be typed after `gimfit surface`. Choices for the two directions are given as one, for
 //! both, or as two with a comma between: u (rows), then v (columns).
 
+use super::edit::GridMove;
 use crate::arguments::{BasisChoice, IterationArguments, KnotRule, RuleOrFile, WritingArguments};
 use clap::{Args, ValueEnum};
 use gimfit_io::grids::{GridFormatChoice, parse_shape};
@@ -17,7 +18,8 @@ Examples:
   gimfit surface heights.csv -o heights.svg
   gimfit surface hull.csv --degree 3,2 --parameters centripetal -o hull.json -o hull.png
   gimfit surface torus.csv --closed both --method pia --keep 0,3,15 -o torus.json
-  gimfit surface peaks.csv --knots at-data --per-direction"
+  gimfit surface peaks.csv --knots at-data --per-direction
+  gimfit surface heights.csv --move 8,5=4,7,120.5 -o edited.json"
 )]
 pub(crate) struct SurfaceArguments {
     /// File of points in rows and columns: lines of row,column,x,y,z or u,v,x,y,z, a matrix of
@@ -114,6 +116,16 @@ pub(crate) struct SurfaceArguments {
     /// number per row for u, one per column for v
     #[arg(long, help_heading = "Iteration")]
     pub(crate) per_direction: bool,
+
+    /// Move a point of the grid after the fit, such as 8,5=1,2,0.5: only control points nearby move.
+    /// May be given several times
+    #[arg(
+        long = "move",
+        value_name = "ROW,COLUMN=X,Y,...",
+        value_parser = GridMove::read,
+        help_heading = "Edits"
+    )]
+    pub(crate) moves: Vec<GridMove>,
 
     #[command(flatten)]
     pub(crate) writing: WritingArguments,

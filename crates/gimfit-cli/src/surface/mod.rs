@@ -2,6 +2,7 @@
 
 mod arguments;
 mod draw;
+mod edit;
 mod plan;
 mod print;
 mod save;
@@ -57,6 +58,8 @@ struct Job<'a> {
     samples: Option<(usize, usize)>,
     seconds: Seconds,
     document: SurfaceDocument,
+    /// What each move of a point did, a line each.
+    edits: Vec<String>,
 }
 
 impl<'a> Job<'a> {
@@ -75,7 +78,7 @@ impl<'a> Job<'a> {
             report.run.choices.splice(0..0, notes);
             report.run.seconds = Some(seconds);
         }
-        Self { grid, fit, bases, samples, seconds, document }
+        Self { grid, fit, bases, samples, seconds, document, edits: Vec::new() }
     }
 }
 
@@ -94,14 +97,13 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
     );
     signal::listen()?;
     let clock = Instant::now();
-    let Plan { grid, options, bases, remarks } = Plan::new(arguments)?;
+    let Plan { mut grid, options, bases, remarks } = Plan::new(arguments)?;
     let read = clock.elapsed().as_secs_f64();
 
     let unused = [&grid.row_abscissae, &grid.column_abscissae].map(Option::is_some) == [true; 2]
         && arguments.parameters.is_none();
-    let explain = |error| explain(error, &grid);
     let view = GridView::new([grid.rows, grid.columns], grid.dimension(), &grid.coordinates)
-        .map_err(explain)?;
+        .map_err(|error| explain(error, &grid))?;
     let mut progress = Progress::new(arguments.writing.quiet, options.iterations);
     signal::enter(Stage::Fitting);
     let clock = Instant::now();
@@ -109,10 +111,11 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
         None => fit_surface_observed(view, &options, &mut progress).map(|fit| (fit, None)),
         Some(bases) => blended(view, bases, &options, &mut progress),
     };
+    progress.finish();
+    let (mut fit, blending) = result.map_err(|error| explain(error, &grid))?;
+    let edits = edit::run(&arguments.moves, &mut grid, &mut fit, options.residual)?;
     let fitted = clock.elapsed().as_secs_f64();
     signal::enter(Stage::Writing);
-    progress.finish();
-    let (mut fit, blending) = result.map_err(explain)?;
     fit.report.run.choices.splice(0..0, remarks);
     if unused {
         fit.report.run.choices.push(
@@ -124,6 +127,7 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
     let bases = bases.as_ref().map(|bases| bases.each_ref().map(|basis| described(&**basis)));
     let mut job = Job::new(&grid, &fit, bases, arguments.samples, seconds);
     job.document.blending = blending;
+    job.edits = edits;
     let report = &fit.report;
     let finish = Finish {
         wanted,

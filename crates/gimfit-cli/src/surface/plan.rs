@@ -45,6 +45,7 @@ impl Plan {
              the columns"
         );
         let grid = read_grid(&arguments.grid, &reading(arguments))?;
+        arguments.ensure_moves_fit()?;
         let numbers = grid.coordinates.len();
         ensure_kept_fits_fit(
             &arguments.iteration.keep,
@@ -131,6 +132,7 @@ fn blending(
     )?;
     let only = !arguments.iteration.only.is_empty();
     only_b_splines("--only", only, "other bases move all points in every step")?;
+    only_b_splines("--move", !arguments.moves.is_empty(), "other bases are fitted as they are")?;
     only_b_splines("--closed", arguments.closed != ClosedChoice::None, "other bases are open")?;
     Ok(Some(bases))
 }

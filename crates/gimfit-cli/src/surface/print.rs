@@ -40,6 +40,7 @@ pub(super) fn report(job: &Job<'_>, written: &[String]) -> String {
             report.control_points[1]
         ),
     );
+    lines.add_all("edits", &job.edits);
     let place = |[i, j]: [usize; 2]| grid.point_name(i, j);
     let columns = report.points[1];
     let outside = report.run.local.map(|local| {

@@ -50,6 +50,24 @@ impl ControlLayout {
 }
 
 impl ControlLayout {
+    /// The moving array of the stored one: the way back of [`ControlLayout::expand`].
+    #[must_use]
+    pub(crate) fn collect(&self, stored: &[f64], dimension: usize) -> Vec<f64> {
+        let held = stored.len() / dimension;
+        let (count, first) = match *self {
+            Self::Free => (held, 0),
+            Self::Tied { per_end } => (held - 2 * per_end, per_end),
+            Self::Periodic { shift, degree } => (held - degree, shift),
+        };
+        let mut moving = memory::with_capacity(count * dimension);
+        for j in 0..count {
+            // Only those of a closed curve run past the last.
+            let place = if first + j < held { first + j } else { (first + j) % count };
+            moving.extend_from_slice(&stored[place * dimension..][..dimension]);
+        }
+        moving
+    }
+
     /// How many control points are stored for `moving` that move.
     #[must_use]
     pub fn stored(&self, moving: usize) -> usize {
@@ -61,7 +79,7 @@ impl ControlLayout {
     }
 
     /// The control point that moves the one stored at a place, out of `moving`.
-    pub(super) fn source(&self, place: usize, moving: usize) -> usize {
+    pub(crate) fn source(&self, place: usize, moving: usize) -> usize {
         match *self {
             Self::Free => place,
             Self::Tied { per_end } => place.saturating_sub(per_end).min(moving - 1),
@@ -103,6 +121,15 @@ impl NetLayout {
         tall.chunks_exact(line).flat_map(|row| self.v.expand(row.to_vec(), dimension)).collect()
     }
 
+    /// The moving net of the stored one: the way back of [`NetLayout::expand`].
+    #[must_use]
+    pub(crate) fn collect(&self, stored: &[f64], dimension: usize) -> Vec<f64> {
+        let line = self.v.stored(self.columns) * dimension;
+        let wide: Vec<f64> =
+            stored.chunks_exact(line).flat_map(|row| self.v.collect(row, dimension)).collect();
+        self.u.collect(&wide, self.columns * dimension)
+    }
+
     /// As [`NetLayout::expand`], into an array of shape (n_u, n_v, dimension).
     pub fn expand_into(&self, moving: &[f64], dimension: usize, stored: &mut [f64]) {
         let line = self.columns * dimension;
@@ -142,11 +169,13 @@ mod tests {
             let mut stored = vec![f64::NAN; u.stored(5) * 8];
             u.expand_into(&moving, 8, &mut stored);
             assert_eq!(stored, u.expand(moving.clone(), 8));
+            assert_eq!(u.collect(&stored, 8), moving);
             for v in layouts {
                 let net = NetLayout { u, v, columns: 4 };
                 let mut stored = vec![f64::NAN; u.stored(5) * v.stored(4) * 2];
                 net.expand_into(&moving, 2, &mut stored);
                 assert_eq!(stored, net.expand(moving.clone(), 2));
+                assert_eq!(net.collect(&stored, 2), moving);
             }
         }
     }

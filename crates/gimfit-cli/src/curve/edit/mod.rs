@@ -25,13 +25,14 @@ use std::time::Instant;
     after_help = "Edits are done one after another in the order given, each on the curve that the \
 one before left. Points count from 1. A point keeps its parameter when it moves; an inserted one \
 divides the gap between its neighbours as the chords do (in half where parameters are uniform or \
-given). The curve is open, over averaged knots.
+given). Knots are averaged ones.
 
 Exit status: 0 done; 1 a residual was not reached (the curve is written all the same); 2 wrong usage \
 or input, nothing written, or a file that could not be written.
 
 Examples:
   gimfit edit track.csv --move 120=3.5,-2.25 -o track.json
+  gimfit edit outline.csv --closed --move 1=0.5,0 -o outline.svg
   gimfit edit track.csv --remove 17 --insert 40=1,2,0.5 --move 41=1.5,2,0.5 -o edited.csv"
 )]
 pub(crate) struct EditArguments {
@@ -111,8 +112,7 @@ pub(crate) fn run(arguments: &EditArguments) -> anyhow::Result<Ending> {
 
 /// Refuses what has no knots that follow from parameters nearby.
 fn ensure_local(form: &ShapeArguments) -> anyhow::Result<()> {
-    let why = "gimfit edit is for open curves of B-splines over averaged knots";
-    ensure!(!form.closed, "--closed: {why}");
+    let why = "gimfit edit is for curves of B-splines over averaged knots";
     let averaged = matches!(form.knots, None | Some(RuleOrFile::Rule(KnotRule::Averaged)));
     ensure!(averaged, "--knots: {why}");
     ensure!(form.basis == BasisChoice::BSpline, "--basis: {why}");
@@ -183,7 +183,8 @@ fn line(edit: &Edit, report: &EditReport, count: usize, seconds: f64) -> String 
         "{what} {}: control points {} to {} of {count} touched, residual {:.1e}, {within}, {}",
         edit.number,
         report.window.start + 1,
-        report.window.end,
+        // Those of a closed curve go on past the last.
+        (report.window.end - 1) % count + 1,
         report.max_residual,
         time(seconds)
     )

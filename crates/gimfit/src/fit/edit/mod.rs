@@ -1,10 +1,17 @@
-//! A curve whose data points are moved, inserted and removed one by one: each edit touches only the
-//! control points near it, within a bound of the fit of all points.
+//! A curve whose data points are moved, inserted and removed one by one, and a surface whose points are
+//! moved: each edit touches only the control points near it, within a bound of the fit of all points.
 
 mod blocks;
 mod place;
+mod ring;
+mod row_sums;
+mod surface;
+mod surface_window;
 mod whole;
+mod whole_surface;
 mod window;
+
+pub use surface::{EditableSurface, SurfaceEditReport};
 
 use std::ops::Range;
 
@@ -15,15 +22,15 @@ use super::solve::{DEFAULT_RESIDUAL, MOST_ROUNDING};
 use crate::Error;
 use crate::collocation::LocalKnots;
 use crate::iteration::Termination;
-use crate::knots::MAX_DEGREE;
+use crate::knots::{MAX_DEGREE, averaged_knot};
 use crate::points::{Extent, PowerOfTwoScale};
 
-/// An open interpolating curve with averaged knots that holds its data points, and follows their
-/// edits by local PIA (Lin 2010) of the points nearby, run to its limit.
+/// An interpolating curve with averaged knots, open or closed, that holds its data points, and follows
+/// their edits by local PIA (Lin 2010) of the points nearby, run to its limit.
 ///
 /// A point that moves keeps its parameter, and all others keep theirs whatever happens; only the up
-/// to `2 p` knots that are means of a parameter inserted or removed change. Positions count from 0.
-/// An edit that is refused changes nothing.
+/// to `2 p` knots that are means of a parameter inserted or removed change. Positions count from 0. A
+/// closed curve keeps its period, and starts at point 0, whichever that is. An edit that is refused changes nothing.
 ///
 /// # Examples
 /// ```
@@ -40,6 +47,8 @@ use crate::points::{Extent, PowerOfTwoScale};
 #[derive(Debug, Clone)]
 pub struct EditableCurve {
     degree: usize,
+    /// Of a closed curve.
+    period: Option<f64>,
     blocks: Blocks,
     scale: PowerOfTwoScale,
     /// Of all points met so far, scaled, as all lengths here.
@@ -69,7 +78,8 @@ struct Account {
 /// What an edit did. Lengths are in the unit of the data.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EditReport {
-    /// Positions, after the edit, of the control points that moved.
+    /// Positions, after the edit, of the control points that moved; of a closed curve those beyond the
+    /// last go on with the first.
     pub window: Range<usize>,
     /// How many they are.
     pub control_points_touched: usize,
@@ -123,10 +133,18 @@ impl EditableCurve {
         point
     }
 
-    /// Where the curve is defined: from the parameter of its first point to that of its last.
+    /// Where the curve is defined: from the parameter of its first point to that of its last; a closed
+    /// curve once round, from the knot before its first point, or at it.
     #[must_use]
     pub fn domain(&self) -> (f64, f64) {
-        (self.blocks.row(0)[0], self.blocks.row(self.len() - 1)[0])
+        let Some(period) = self.period else {
+            return (self.parameter(0), self.parameter(self.len() - 1));
+        };
+        let half = (self.degree / 2) as isize;
+        let near: Vec<f64> =
+            (0..self.degree as isize).map(|k| self.unrolled_point(k - half).1).collect();
+        let start = averaged_knot(&near);
+        (start, start + period)
     }
 
     /// The point of the curve at `t`, from the control points nearby.
@@ -139,11 +157,8 @@ impl EditableCurve {
             return Err(Error::OutsideDomain { parameter: t, start, end });
         }
         let (degree, dimension) = (self.degree, self.dimension());
-        let j = self.blocks.at_parameter(t);
-        let held = j.saturating_sub(3 * degree)..(j + 3 * degree + 1).min(self.len());
-        let near: Vec<&[f64]> = self.blocks.rows(held.clone()).collect();
-        let parameters: Vec<f64> = near.iter().map(|row| row[0]).collect();
-        let knots = LocalKnots::new(degree, &parameters, held.start, self.len());
+        let (near, parameters, held, j, count) = self.near(t);
+        let knots = LocalKnots::new(degree, &parameters, held.start, count);
         let span = knots.span(j, t);
         let mut values = [0.0; MAX_DEGREE + 1];
         knots.functions(span, t, &mut values);
@@ -165,10 +180,13 @@ impl EditableCurve {
             return f64::INFINITY;
         }
         let inverse_norm = self.blocks.largest_row_sum() / (1.0 - row_sum_residual);
+        if !inverse_norm.is_finite() {
+            return f64::INFINITY;
+        }
         // A row of p + 1 weights that add up to 1, and a difference.
         let per_coordinate = (self.degree + 3) as f64 * f64::EPSILON * largest;
         let rounding = per_coordinate * (self.dimension() as f64).sqrt();
-        self.scale.undo(inverse_norm * (residual + rounding))
+        self.scale.undo(inverse_norm * (residual + rounding + self.seam_rounding()))
     }
 
     /// Moves data point `index`; it keeps its parameter.
@@ -180,7 +198,7 @@ impl EditableCurve {
     pub fn move_point(&mut self, index: usize, point: &[f64]) -> Result<EditReport, Error> {
         self.check_position(index, self.len())?;
         let point = self.scaled(index, point)?;
-        self.keep_apart(&point, index.checked_sub(1), index + 1)?;
+        self.keep_apart(&point, index as isize - 1, index + 1)?;
         let mut row = self.blocks.row(index).to_vec();
         let size = place::distance(self.data(index), &point);
         row[2..2 + point.len()].copy_from_slice(&point);
@@ -189,14 +207,15 @@ impl EditableCurve {
 
     /// Inserts a data point before point `index`; `index = len()` appends. Its parameter divides
     /// the gap between its neighbours as the chords to them do (where parameters are uniform or
-    /// given, in half); beyond an end the chord counts as in the gap next to it.
+    /// given, in half); beyond an end the chord counts as in the gap next to it. The gap of a closed
+    /// curve from its last point to its first takes points at either position.
     ///
     /// # Errors
     /// As [`EditableCurve::move_point`]; [`Error::ParametersCollide`] where the gap is too small.
     pub fn insert_point(&mut self, index: usize, point: &[f64]) -> Result<EditReport, Error> {
         self.check_position(index, self.len() + 1)?;
         let point = self.scaled(index, point)?;
-        self.keep_apart(&point, index.checked_sub(1), index)?;
+        self.keep_apart(&point, index as isize - 1, index)?;
         let parameter = self.parameter_between(index, &point)?;
         self.insert(index, parameter, &point)
     }
@@ -243,8 +262,8 @@ impl EditableCurve {
         let size = self.chords(index, point, index);
         // It starts as far from its data point as its neighbours ended.
         let dimension = self.dimension();
-        let near = self.blocks.rows(index.saturating_sub(1)..(index + 1).min(self.len()));
-        let near: Vec<&[f64]> = near.collect();
+        let near = [self.neighbour(index as isize - 1), self.neighbour(index as isize)];
+        let near: Vec<&[f64]> = near.iter().flatten().map(|&(j, _)| self.blocks.row(j)).collect();
         let mean = |of: &dyn Fn(&[f64]) -> f64| {
             near.iter().map(|row| of(row)).sum::<f64>() / near.len() as f64
         };
@@ -269,16 +288,9 @@ impl EditableCurve {
         if !row.is_empty() {
             place::widen(&mut extent, &row[2..2 + dimension]);
         }
-        let diagonal = extent.diagonal();
-        if !diagonal.is_finite() {
-            return Err(Error::LeavesDoubles);
-        }
-        let goal = Goal {
-            degree: self.degree,
-            residual: self.demanded.unwrap_or(DEFAULT_RESIDUAL * diagonal),
-            accept_rounding: MOST_ROUNDING * diagonal,
-        };
-        let settled = Edited { blocks: &self.blocks, change, index, row, size }.settle(goal)?;
+        let goal = goal_of(self.degree, &extent, self.demanded)?;
+        let edited = Edited { blocks: &self.blocks, change, index, row, size, period: self.period };
+        let settled = edited.settle(goal)?;
         self.extent = extent;
         match change {
             Change::Move => {}
@@ -290,7 +302,10 @@ impl EditableCurve {
 
     fn take(&mut self, settled: Settled) -> EditReport {
         let Settled { window, rows, iterations, termination, max_residual, .. } = settled;
-        self.blocks.write(window.start, &rows);
+        let before_the_seam = (self.len() - window.start) * self.blocks.stride();
+        let (head, tail) = rows.split_at(rows.len().min(before_the_seam));
+        self.blocks.write(window.start, head);
+        self.blocks.write(0, tail);
         let account = &mut self.account;
         account.edits += 1;
         account.iterations += iterations;
@@ -307,4 +322,19 @@ impl EditableCurve {
             bound: self.bound(),
         }
     }
+}
+
+/// What the points near an edit are to reach.
+fn goal_of(degree: usize, extent: &Extent, demanded: Option<f64>) -> Result<Goal, Error> {
+    let diagonal = extent.diagonal();
+    if !diagonal.is_finite() {
+        return Err(Error::LeavesDoubles);
+    }
+    let residual = residual_target(extent, demanded);
+    Ok(Goal { degree, residual, accept_rounding: MOST_ROUNDING * diagonal })
+}
+
+/// The residual asked for, or the default.
+fn residual_target(extent: &Extent, demanded: Option<f64>) -> f64 {
+    demanded.unwrap_or(DEFAULT_RESIDUAL * extent.diagonal())
 }

@@ -3,7 +3,7 @@
 use super::EditableCurve;
 use crate::Error;
 use crate::fit::solve::norm;
-use crate::points::Extent;
+use crate::points::{Extent, PowerOfTwoScale};
 
 /// How parameters follow the points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,6 +36,28 @@ pub(super) fn widen(extent: &mut Extent, point: &[f64]) {
     extent.upper.iter_mut().zip(point).for_each(|(high, x)| *high = high.max(*x));
 }
 
+/// A point of the caller's, checked and scaled.
+pub(super) fn scaled(
+    scale: PowerOfTwoScale,
+    dimension: usize,
+    index: usize,
+    point: &[f64],
+) -> Result<Vec<f64>, Error> {
+    if point.len() != dimension {
+        return Err(Error::WrongCount {
+            what: "coordinates",
+            given: point.len(),
+            expected: dimension,
+            why: "as many as the other points have",
+        });
+    }
+    if let Some(coordinate) = point.iter().position(|x| !x.is_finite()) {
+        return Err(Error::NotFinite { point: index, coordinate, value: point[coordinate] });
+    }
+    let scaled = scale.apply(point).into_owned();
+    if scaled.iter().all(|x| x.is_finite()) { Ok(scaled) } else { Err(Error::LeavesDoubles) }
+}
+
 impl EditableCurve {
     /// A data point, scaled.
     pub(super) fn data(&self, index: usize) -> &[f64] {
@@ -55,32 +77,27 @@ impl EditableCurve {
 
     /// A point of the caller's, checked and scaled.
     pub(super) fn scaled(&self, index: usize, point: &[f64]) -> Result<Vec<f64>, Error> {
-        if point.len() != self.dimension() {
-            return Err(Error::WrongCount {
-                what: "coordinates",
-                given: point.len(),
-                expected: self.dimension(),
-                why: "as many as the other points have",
-            });
-        }
-        if let Some(coordinate) = point.iter().position(|x| !x.is_finite()) {
-            return Err(Error::NotFinite { point: index, coordinate, value: point[coordinate] });
-        }
-        let scaled = self.scale.apply(point).into_owned();
-        if scaled.iter().all(|x| x.is_finite()) { Ok(scaled) } else { Err(Error::LeavesDoubles) }
+        scaled(self.scale, self.dimension(), index, point)
+    }
+
+    /// The point at a position that may lie past an end, and its parameter: none on an open curve, on
+    /// a closed one that of another round.
+    pub(super) fn neighbour(&self, j: isize) -> Option<(usize, f64)> {
+        let inside = usize::try_from(j).is_ok_and(|j| j < self.len());
+        (inside || self.period.is_some()).then(|| self.unrolled_point(j))
     }
 
     /// Refuses a point at the place of a neighbour, where parameters follow chords.
     pub(super) fn keep_apart(
         &self,
         point: &[f64],
-        before: Option<usize>,
+        before: isize,
         after: usize,
     ) -> Result<(), Error> {
-        let after = (after < self.len()).then_some(after);
-        let met = before.into_iter().chain(after).find(|&j| self.data(j) == point);
+        let near = [before, after as isize].map(|j| self.neighbour(j));
+        let met = near.into_iter().flatten().find(|&(j, _)| self.data(j) == point);
         match met {
-            Some(neighbour) if self.spacing != Spacing::Free => {
+            Some((neighbour, _)) if self.spacing != Spacing::Free => {
                 Err(Error::MeetsNeighbour { neighbour })
             }
             _ => Ok(()),
@@ -90,15 +107,14 @@ impl EditableCurve {
     /// Distances from a point to point `index - 1` and to point `after`, as far as they exist, added
     /// up.
     pub(super) fn chords(&self, index: usize, point: &[f64], after: usize) -> f64 {
-        let after = (after < self.len()).then_some(after);
-        let near = index.checked_sub(1).into_iter().chain(after);
-        near.map(|j| distance(self.data(j), point)).sum()
+        let near = [index as isize - 1, after as isize].map(|j| self.neighbour(j));
+        near.into_iter().flatten().map(|(j, _)| distance(self.data(j), point)).sum()
     }
 
     /// Whether a parameter lies between those before and at `index`.
     pub(super) fn fits_between(&self, index: usize, t: f64) -> bool {
-        let above = index.checked_sub(1).is_none_or(|before| self.parameter(before) < t);
-        above && (index == self.len() || t < self.parameter(index))
+        self.neighbour(index as isize - 1).is_none_or(|(_, before)| before < t)
+            && self.neighbour(index as isize).is_none_or(|(_, after)| t < after)
     }
 
     /// The parameter of a point inserted before point `index`.
@@ -111,15 +127,15 @@ impl EditableCurve {
             let chord = step(self.data(end), self.data(next));
             self.parameter(end) - gap * (step(self.data(end), point) / chord)
         };
-        let t = if index == 0 {
-            beyond(0, 1)
-        } else if index > last {
-            beyond(last, last - 1)
-        } else {
-            let (before, after) = (self.parameter(index - 1), self.parameter(index));
-            let near = step(self.data(index - 1), point);
-            let share = near / (near + step(point, self.data(index)));
-            before + (after - before) * share
+        let gap = [index as isize - 1, index as isize].map(|j| self.neighbour(j));
+        let t = match gap {
+            [None, _] => beyond(0, 1),
+            [_, None] => beyond(last, last - 1),
+            [Some((first, before)), Some((second, after))] => {
+                let near = step(self.data(first), point);
+                let share = near / (near + step(point, self.data(second)));
+                before + (after - before) * share
+            }
         };
         if t.is_finite() && self.fits_between(index, t) {
             return Ok(t);
@@ -128,7 +144,7 @@ impl EditableCurve {
         Err(Error::ParametersCollide { first, second: first + 1 })
     }
 
-    fn parameter(&self, index: usize) -> f64 {
+    pub(super) fn parameter(&self, index: usize) -> f64 {
         self.blocks.row(index)[0]
     }
 }

@@ -2,15 +2,17 @@
 
 use super::blocks::Blocks;
 use super::place::Spacing;
-use super::{Account, EditableCurve};
+use super::ring::layout;
+use super::row_sums::row_sums;
+use super::{Account, EditableCurve, residual_target};
 use crate::Error;
-use crate::collocation::{CollocationOperator, interpolation};
-use crate::fit::curve::{spacing_ratio, unscale};
-use crate::fit::solve::{DEFAULT_RESIDUAL, Size, norm, unscaled};
-use crate::fit::{CurveFit, CurveOptions, fit_curve, interpolate};
+use crate::collocation::{CollocationOperator, ResidualNorms, interpolation};
+use crate::fit::curve::{finish_parameters, unscale};
+use crate::fit::solve::{Size, norm, unscaled};
+use crate::fit::{CurveFit, CurveOptions, fit_curve};
 use crate::geometry::Curve;
 use crate::iteration::{HistoryEntry, ROUNDING};
-use crate::knots::{KnotPlacement, place_knots};
+use crate::knots::{Boundary, KnotPlacement, KnotVector, place_knots};
 use crate::memory;
 use crate::parameters::Parameters;
 use crate::points::{Extent, Points, PointsView};
@@ -18,23 +20,79 @@ use crate::projection::largest_deviation;
 use crate::report::{CurveReport, RunReport};
 
 /// An error that says what cannot be edited.
-fn refused(with: &'static str, why: &'static str) -> Error {
+pub(super) fn refused(with: &'static str, why: &'static str) -> Error {
     Error::Incompatible { what: "editing point by point", with, why }
+}
+
+/// The sentence on a bound.
+pub(super) fn within(bound: f64) -> String {
+    if bound.is_finite() {
+        return format!("no control point is farther than {bound:.1e} from the fit of all points");
+    }
+    "with parameters this close together, how far control points are from the fit of all points has \
+     no bound"
+        .into()
+}
+
+/// Parameters of a closed curve in rising order, as they were before the seam stepped back.
+pub(super) fn unwrapped(values: &[f64], period: f64) -> Vec<f64> {
+    let seam = values.windows(2).position(|t| t[1] <= t[0]).map_or(0, |at| at + 1);
+    let late = seam > values.len() / 2;
+    let each = values.iter().enumerate();
+    each.map(|(j, t)| match (j < seam, late) {
+        (true, false) => t - period,
+        (false, true) => t + period,
+        _ => *t,
+    })
+    .collect()
+}
+
+/// The parameters behind a fit, if its knots are averaged ones, and these.
+fn averaged(knots: &KnotVector, values: &[f64]) -> Result<Option<(Parameters, KnotVector)>, Error> {
+    let parameters = match knots.boundary() {
+        Boundary::Open => Parameters::open(values.to_vec())?,
+        Boundary::Periodic => {
+            let (start, end) = knots.domain();
+            Parameters::closed(unwrapped(values, end - start), end - start)?
+        }
+    };
+    let placed = place_knots(knots.degree(), &parameters, &KnotPlacement::Averaged)?;
+    let (start, end) = knots.domain();
+    // Parameters that were wrapped and unwrapped have been rounded.
+    let slack = match knots.boundary() {
+        Boundary::Open => 0.0,
+        Boundary::Periodic => 16.0 * f64::EPSILON * (start.abs() + end.abs()),
+    };
+    let mut pairs = placed.values().iter().zip(knots.values());
+    let same = placed.values().len() == knots.values().len()
+        && pairs.all(|(ours, theirs)| (ours - theirs).abs() <= slack);
+    Ok(same.then_some((parameters, placed)))
+}
+
+/// The difference vectors of all points, from stored control points.
+fn differences(
+    parameters: &Parameters,
+    knots: &KnotVector,
+    data: &[f64],
+    stored: &[f64],
+) -> Result<(ResidualNorms, Vec<f64>), Error> {
+    let built = interpolation(parameters, knots)?;
+    let dimension = data.len() / parameters.values().len();
+    let control = built.layout.collect(stored, dimension);
+    let mut vectors = memory::zeros(data.len());
+    let norms = built.operator.difference_vectors(data, &control, dimension, &mut vectors);
+    Ok((norms, vectors))
 }
 
 impl EditableCurve {
     /// Fits all points, to be edited from then on.
     ///
     /// # Errors
-    /// As [`fit_curve`]; [`Error::Incompatible`] for closed curves, knots that are not averaged,
-    /// rational weights, and whatever else does not give one control point per data point.
+    /// As [`fit_curve`]; [`Error::Incompatible`] for knots that are not averaged, rational weights, and whatever else does not give one control point per data point.
     pub fn new<'a>(
         points: impl Into<PointsView<'a>>,
         options: &CurveOptions,
     ) -> Result<Self, Error> {
-        if options.closed {
-            return Err(refused("a closed curve", "it is done for open curves only"));
-        }
         let points = points.into();
         let fit = fit_curve(points, options)?;
         let mut curve = Self::from_fit(points, &fit)?;
@@ -51,14 +109,15 @@ impl EditableCurve {
     pub fn from_fit<'a>(points: impl Into<PointsView<'a>>, fit: &CurveFit) -> Result<Self, Error> {
         let points = points.into();
         let curve = &fit.curve;
-        if curve.is_periodic() {
-            return Err(refused("a closed curve", "it is done for open curves only"));
-        }
         if curve.rational_weights().is_some() {
             return Err(refused("rational weights", "it is done for polynomial curves only"));
         }
         let dimension = points.dimension();
         let data: Vec<f64> = match &fit.kept_points {
+            // A closed curve's first point may be repeated at the end.
+            None if curve.is_periodic() && points.len() == fit.parameters.len() + 1 => {
+                points.coordinates()[..fit.parameters.len() * dimension].to_vec()
+            }
             None => points.coordinates().to_vec(),
             Some(kept) => {
                 let inside = kept.iter().filter(|&&j| j < points.len());
@@ -74,42 +133,33 @@ impl EditableCurve {
                 why: "those of the points fitted",
             });
         }
-        let parameters = Parameters::open(fit.parameters.clone())?;
-        let knots = place_knots(curve.degree(), &parameters, &KnotPlacement::Averaged)?;
-        if knots != *curve.knots() {
+        let Some((parameters, knots)) = averaged(curve.knots(), &fit.parameters)? else {
             return Err(refused(
                 "these knots",
                 "only averaged ones follow from parameters nearby; leave the knots to gimfit",
             ));
-        }
+        };
         let extent = Extent::of(PointsView::new(dimension, &data)?)?;
         let scale = Size::of(extent).scale;
         let data = scale.apply(&data);
         let extent = Extent::of(PointsView::new(dimension, &data)?)?;
-        let control = scale.apply(curve.control_points().coordinates());
-        let operator = interpolation(&parameters, &knots)?.operator;
-        let mut vectors = memory::zeros(data.len());
-        let norms = operator.difference_vectors(&data, &control, dimension, &mut vectors);
-
-        // Row sums of the inverse without its signs, which are those of a chessboard.
-        let signs: Vec<f64> =
-            (0..count).map(|j| if j.is_multiple_of(2) { 1.0 } else { -1.0 }).collect();
-        let sums = interpolate(
-            PointsView::new(1, &signs)?,
-            parameters,
-            knots,
-            &CurveOptions { degree: curve.degree(), ..CurveOptions::default() },
-        )?;
-        let row_sums = sums.curve.control_points().coordinates();
+        let stored = scale.apply(curve.control_points().coordinates());
+        let norms = differences(&parameters, &knots, &data, &stored)?.0;
+        let layout = layout(curve.degree(), parameters.period());
+        let control = layout.collect(&stored, dimension);
+        let (row_sums, row_sum_residual) = row_sums(&parameters, &knots, layout)?;
+        let period = parameters.period();
+        let t = parameters.into_values();
         let mut rows = memory::with_capacity(count * (2 * dimension + 2));
         for j in 0..count {
-            rows.extend([fit.parameters[j], row_sums[j] * signs[j]]);
+            rows.extend([t[j], row_sums[j]]);
             rows.extend_from_slice(&data[j * dimension..][..dimension]);
             rows.extend_from_slice(&control[j * dimension..][..dimension]);
         }
         let largest = data.iter().chain(&*control).fold(0.0, |most: f64, x| most.max(x.abs()));
         Ok(Self {
             degree: curve.degree(),
+            period,
             blocks: Blocks::new(dimension, &rows),
             scale,
             extent,
@@ -125,7 +175,7 @@ impl EditableCurve {
                 iterations: fit.report.run.iterations,
                 termination: fit.report.run.termination,
                 residual: norms.max,
-                row_sum_residual: sums.report.run.max_residual,
+                row_sum_residual,
                 largest,
             },
         })
@@ -160,17 +210,20 @@ impl EditableCurve {
     /// [`Error::LeavesDoubles`] if a coordinate does.
     pub fn fit(&self) -> Result<CurveFit, Error> {
         let (dimension, scale) = (self.dimension(), self.scale);
-        let parameters = Parameters::open(self.parameters())?;
+        let parameters = match self.period {
+            None => Parameters::open(self.parameters())?,
+            Some(period) => Parameters::closed(self.parameters(), period)?,
+        };
         let knots = place_knots(self.degree, &parameters, &KnotPlacement::Averaged)?;
-        let operator = interpolation(&parameters, &knots)?.operator;
+        let layout = layout(self.degree, self.period);
         let (data, control) = (self.columns(2), self.columns(2 + dimension));
-        let mut vectors = memory::zeros(data.len());
-        let norms = operator.difference_vectors(&data, &control, dimension, &mut vectors);
-        let values = parameters.into_values();
+        let control = layout.expand(control, dimension);
+        let (norms, vectors) = differences(&parameters, &knots, &data, &control)?;
+        let (values, spacing_ratio) = finish_parameters(parameters, &knots, layout);
         let view = PointsView::new(dimension, &data)?;
         let extent = Extent::of(view)?;
         let rounding = ROUNDING * extent.largest_coordinate();
-        let target = self.demanded.unwrap_or(DEFAULT_RESIDUAL * extent.diagonal()).max(rounding);
+        let target = residual_target(&extent, self.demanded).max(rounding);
         let curve = Curve::new(knots, Points::new(dimension, control)?)?;
         let (max_deviation, max_deviation_index) = if norms.max <= rounding {
             // Down there a foot point is decided by rounding; the residual bounds the distance.
@@ -180,19 +233,12 @@ impl EditableCurve {
             largest_deviation(&curve, view, &values, &residuals)?
         };
         let Account { edits, iterations, termination, .. } = self.account;
-        let bound = self.bound();
-        let within = if bound.is_finite() {
-            format!("no control point is farther than {bound:.1e} from the fit of all points")
-        } else {
-            "with parameters this close together, how far control points are from the fit of all \
-             points has no bound"
-                .into()
-        };
         let (max_residual, rms_residual) = (scale.undo(norms.max), scale.undo(norms.rms));
         let run = RunReport {
             method: "local",
             choices: vec![format!(
-                "edits: {edits}, each by local PIA of the points near it; {within}"
+                "edits: {edits}, each by local PIA of the points near it; {}",
+                within(self.bound())
             )],
             iterations,
             iteration_returned: iterations,
@@ -218,10 +264,10 @@ impl EditableCurve {
             control_points: view.len(),
             degree: self.degree,
             dimension,
-            closed: false,
+            closed: self.period.is_some(),
             parameterization: self.parameterization,
             knot_placement: "averaged",
-            spacing_ratio: spacing_ratio(&values, None),
+            spacing_ratio,
             shape: None,
             run,
             approximation: None,

@@ -27,6 +27,8 @@ pub(super) struct Edited<'a> {
     pub(super) row: &'a [f64],
     /// About how far the curve is from its data right after the change.
     pub(super) size: f64,
+    /// Of a closed curve.
+    pub(super) period: Option<f64>,
 }
 
 /// What the points near an edit are to reach.
@@ -61,7 +63,7 @@ const ROW_SUM_RESIDUAL: f64 = 1e-6;
 const MOST_STEPS: usize = 20;
 
 impl Edited<'_> {
-    fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         match self.change {
             Change::Move => self.blocks.len(),
             Change::Insert => self.blocks.len() + 1,
@@ -70,7 +72,7 @@ impl Edited<'_> {
     }
 
     /// Rows as they will be numbered.
-    fn rows(&self, range: &Range<usize>) -> Vec<f64> {
+    pub(super) fn rows(&self, range: &Range<usize>) -> Vec<f64> {
         let mut rows = Vec::with_capacity(range.len() * self.blocks.stride());
         let copy = |old: Range<usize>, rows: &mut Vec<f64>| {
             if !old.is_empty() {
@@ -100,8 +102,17 @@ impl Edited<'_> {
         let mut iterations = 0;
         let mut reach = first_reach(goal, self.size, self.change != Change::Move);
         loop {
-            let end = self.index.saturating_add(reach + 1).min(count);
-            let window = self.index.saturating_sub(reach)..end;
+            let window = match self.period {
+                None => {
+                    let end = self.index.saturating_add(reach + 1).min(count);
+                    self.index.saturating_sub(reach)..end
+                }
+                // Where it would meet itself.
+                Some(period) if 2 * (reach + 3 * goal.degree) + 1 > count => {
+                    return self.settle_whole(goal, period);
+                }
+                Some(_) => count + self.index - reach..count + self.index + reach + 1,
+            };
             let (mut settled, done) = self.settle_window(goal, window)?;
             iterations += settled.iterations;
             if done || settled.window == (0..count) {
@@ -115,12 +126,20 @@ impl Edited<'_> {
     /// Local PIA on one window; also whether the points outside are met still.
     fn settle_window(&self, goal: Goal, window: Range<usize>) -> Result<(Settled, bool), Error> {
         let (stride, dimension) = (self.blocks.stride(), self.blocks.dimension());
-        let (seeing, held) = surroundings(goal.degree, self.len(), &window);
-        let mut rows = self.rows(&held);
+        // A closed curve is unrolled, with more rounds than a window reaches into.
+        let count = if self.period.is_some() { 3 * self.len() } else { self.len() };
+        let (seeing, held) = surroundings(goal.degree, count, &window);
+        let (mut rows, t) = match self.period {
+            None => {
+                let rows = self.rows(&held);
+                let t = rows.chunks_exact(stride).map(|row| row[0]).collect();
+                (rows, t)
+            }
+            Some(period) => self.unrolled(&held, period),
+        };
         let column = |at: Range<usize>| -> Vec<f64> {
             rows.chunks_exact(stride).flat_map(|row| &row[at.clone()]).copied().collect()
         };
-        let t = column(0..1);
         let (data, control) = (column(2..2 + dimension), column(2 + dimension..stride));
         // The inverse has the signs of a chessboard: its row sums, without signs, are the control
         // points of data +1, -1, +1, ... but for their signs.
@@ -129,7 +148,7 @@ impl Edited<'_> {
         let sums = column(ROW_SUM..ROW_SUM + 1).iter().zip(&signs).map(|(x, s)| x * s).collect();
 
         let operator =
-            WindowCollocation::new(goal.degree, self.len(), seeing.clone(), held.clone(), &t)?;
+            WindowCollocation::new(goal.degree, count, seeing.clone(), held.clone(), &t)?;
         let matrix = operator.within(&window);
         let rule = Preconditioned::new(&matrix, None)?;
         let view = Window { operator, matrix, rule, seeing, held: held.clone(), window };
@@ -161,7 +180,13 @@ impl Edited<'_> {
         }
         let settled = Settled {
             rows: rows[inner.start * stride..inner.end * stride].to_vec(),
-            window: view.window,
+            window: match self.period {
+                None => view.window,
+                Some(_) => {
+                    let start = view.window.start % self.len();
+                    start..start + view.window.len()
+                }
+            },
             iterations: met.outcome.iterations,
             termination: met.outcome.termination,
             max_residual: met.inside.max(met.outside),
@@ -174,7 +199,7 @@ impl Edited<'_> {
 
 /// How far the window of an edit reaches at first: to where the effect of `size` has died away by
 /// the dominant pole of the inverse for equal steps, and far enough to hold all knots that change.
-fn first_reach(goal: Goal, size: f64, knots_change: bool) -> usize {
+pub(super) fn first_reach(goal: Goal, size: f64, knots_change: bool) -> usize {
     let degree = goal.degree as f64;
     // Where the two leading terms of the symbol of the B-spline cancel.
     let decay = PI * (PI / (2.0 * degree + 2.0)).tan();
@@ -267,7 +292,8 @@ mod tests {
                     Change::Remove => drop(plain.remove(index)),
                 }
                 let new = row(-1.0);
-                let edited = Edited { blocks: &blocks, change, index, row: &new, size: 1.0 };
+                let edited =
+                    Edited { blocks: &blocks, change, index, row: &new, size: 1.0, period: None };
                 assert_eq!(edited.len(), plain.len());
                 for start in 0..plain.len() {
                     for end in [start, start + 1, start + 9, plain.len()] {
