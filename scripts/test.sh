@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Every check a change must pass: format, lints, documentation, tests, examples in documentation,
-# and what the README shows.
+# and what the README and the pages show.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -18,6 +18,9 @@ python3 scripts/check_docs.py
 
 step 'the commands of the README'
 bash scripts/readme.sh
+
+step 'what the pages say the program prints'
+python3 scripts/check_console.py
 
 step 'tests and examples in documentation'
 cargo test --workspace --locked
