@@ -9,6 +9,7 @@ use gimfit::{
     Convexity, CurveOptions, Duplicates, GridView, KnotPlacement, Method, Parameterization, Points,
     PointsView, SurfaceOptions, fit_curve, fit_surface,
 };
+use gimfit_testkit::adaptive::adaptive_pia;
 use gimfit_testkit::generate::{Random, random_walk};
 use gimfit_testkit::{dense, textbook};
 
@@ -214,6 +215,55 @@ fn what_cannot_be_done_is_refused_with_the_reason() {
     let adaptive =
         CurveOptions { method: Method::Adaptive, residual: Some(0.0), ..Default::default() };
     assert!(refused(adaptive).contains("above 0"));
+}
+
+/// Table 2.4 of a thesis of 2021: 21 points of a lemniscate, knots at the data.
+#[test]
+fn the_published_trace_of_adaptive_pia() {
+    let rows: dense::Rows = (0..21)
+        .map(|k| std::f64::consts::TAU * f64::from(k) / 20.0)
+        .map(|s| vec![s.cos(), s.sin() * s.cos()])
+        .collect();
+    let data = Points::new(2, rows.concat()).unwrap();
+    let options = |method| CurveOptions {
+        method,
+        parameterization: Some(Parameterization::Uniform),
+        knot_placement: Some(KnotPlacement::AtData),
+        residual: Some(1e-5),
+        ..Default::default()
+    };
+    let plain = fit_curve(&data, &options(Method::Pia)).unwrap();
+    let largest: Vec<String> = plain
+        .report
+        .run
+        .history
+        .iter()
+        .map(|entry| format!("{:.5e}", entry.max_residual))
+        .collect();
+    assert_eq!(largest[..3], ["4.46889e-2", "1.32064e-2", "5.82997e-3"]);
+    assert_eq!(plain.report.run.iterations, 15);
+
+    // Rounds take 21 steps. With the columns one place off, as in the program published with the thesis,
+    // the bound is void: the 18 steps printed, 156 moves (printed 150), and points that are not looked at
+    // again end at four times the residual asked for.
+    let knots = plain.curve.knots().values();
+    let matrix: dense::Rows = textbook::collocation_matrix(knots, 3, &plain.parameters)
+        .into_iter()
+        .map(|row| {
+            let mut tied = row[1..22].to_vec();
+            (tied[0], tied[20]) = (tied[0] + row[0], tied[20] + row[22]);
+            tied
+        })
+        .collect();
+    let rounds = |shift| adaptive_pia(&matrix, &rows, 1e-5, shift);
+    assert_eq!((rounds(0).steps, rounds(0).moves), (21, 166));
+    assert_eq!(format!("{:.4e}", rounds(0).residual), "8.1826e-6");
+    assert_eq!((rounds(1).steps, rounds(1).moves), (18, 156));
+    assert_eq!(format!("{:.4e}", rounds(1).residual), "3.9692e-5");
+
+    let ours = fit_curve(&data, &options(Method::Adaptive)).unwrap().report.run;
+    assert!(ours.converged() && ours.max_residual <= 1e-5);
+    assert_eq!((ours.iterations, ours.updates.unwrap().done), (15, 182));
 }
 
 /// The same points, one of them repeated, and a closed one with its first point again at the end.

@@ -53,7 +53,7 @@ const REPRODUCTIONS: [Reproduction; 8] = [
     },
     Reproduction {
         name: "orsi2021",
-        line: "Orsi 2021, Tables 2.1 and 2.2: lemniscate, plain and weighted PIA",
+        line: "Orsi 2021, Tables 2.1, 2.2, 2.4: lemniscate, plain and weighted PIA",
         recompute: orsi2021::recompute,
     },
     Reproduction {
