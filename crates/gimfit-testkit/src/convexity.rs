@@ -2,6 +2,7 @@
 //! it, and a check that a fit is the closest one that keeps its turns.
 
 use crate::dense::{self, Rows};
+use crate::textbook;
 
 /// Sum and rounding error of two numbers.
 fn two_sum(a: f64, b: f64) -> (f64, f64) {
@@ -39,6 +40,118 @@ pub fn turn_signs(polygon: &Rows, closed: bool) -> Vec<i32> {
     (0..count)
         .map(|k| turn_sign(&polygon[k], &polygon[(k + 1) % n], &polygon[(k + 2) % n]))
         .collect()
+}
+
+/// Three points of a polygon, and the sign with which they are to turn.
+pub type Triple = ([usize; 3], i32);
+
+/// The corners that have a sign, as triples.
+#[must_use]
+pub fn corner_triples(signs: &[i32], points: usize) -> Vec<Triple> {
+    let triple = |k: usize| [k, (k + 1) % points, (k + 2) % points];
+    (0..signs.len()).filter(|&k| signs[k] != 0).map(|k| (triple(k), signs[k])).collect()
+}
+
+/// All triples of up to degree + 1 successive points whose corners have one sign and which are the
+/// corners of a convex polygon; and whether no such points but make one.
+#[must_use]
+pub fn convex_triples(polygon: &Rows, signs: &[i32], degree: usize) -> (Vec<Triple>, bool) {
+    let (n, closed) = (polygon.len(), signs.len() == polygon.len());
+    let (mut triples, mut all) = (Vec::new(), true);
+    for first in 0..signs.len() {
+        let most = degree.min(n - 1).min(if closed { n } else { n - 1 - first });
+        for last in first + 2..=first + most {
+            let sign = signs[first];
+            if sign == 0 || (first..last - 1).any(|k| signs[k % n] != sign) {
+                break;
+            }
+            let mut found = Vec::new();
+            for a in first..=last {
+                for b in a + 1..=last {
+                    found.extend((b + 1..=last).map(|c| ([a % n, b % n, c % n], sign)));
+                }
+            }
+            if has_triples(polygon, &found) {
+                triples.extend(found);
+            } else {
+                all = false;
+            }
+        }
+    }
+    (triples, all)
+}
+
+/// Whether a polygon turns as triples ask for.
+#[must_use]
+pub fn has_triples(polygon: &Rows, triples: &[Triple]) -> bool {
+    triples
+        .iter()
+        .all(|&([a, b, c], sign)| turn_sign(&polygon[a], &polygon[b], &polygon[c]) == sign)
+}
+
+/// How a planar curve bends, as seen at many samples.
+#[derive(Debug, Clone)]
+pub struct Bends {
+    /// Signs of `C' x C''` on the way, none twice in a row.
+    pub signs: Vec<i32>,
+    /// The angle by which the direction turns from the start to the end.
+    pub turning: f64,
+}
+
+/// Looks at `samples` places in each knot span of a B-spline curve over the knots `u`, between
+/// `u[p]` and the knot as far from the end. What rounding may have made of zero has no sign.
+#[must_use]
+pub fn bends(u: &[f64], p: usize, control: &Rows, samples: usize) -> Bends {
+    // Control points of the derivative, of a curve of degree q over the knots without the outer ones.
+    let derived = |u: &[f64], q: usize, control: &Rows| -> Rows {
+        let quotient = |i: usize, c: usize| {
+            let length = u[i + q + 1] - u[i + 1];
+            if length > 0.0 { q as f64 * (control[i + 1][c] - control[i][c]) / length } else { 0.0 }
+        };
+        (0..control.len() - 1).map(|i| vec![quotient(i, 0), quotient(i, 1)]).collect()
+    };
+    let at = |u: &[f64], q: usize, control: &Rows, t: f64| -> [f64; 2] {
+        let mut point = [0.0; 2];
+        for (i, row) in control.iter().enumerate().filter(|(i, _)| u[*i] <= t && t <= u[i + q + 1])
+        {
+            let weight = textbook::basis_function(u, q, i, t);
+            (0..2).for_each(|c| point[c] += weight * row[c]);
+        }
+        point
+    };
+    let (u1, u2) = (&u[1..u.len() - 1], &u[2..u.len() - 2]);
+    let first = derived(u, p, control);
+    let second = derived(u1, p - 1, &first);
+    let cross = |a: [f64; 2], b: [f64; 2]| a[0] * b[1] - a[1] * b[0];
+    let (mut signs, mut turning, mut before) = (Vec::new(), 0.0, None::<[f64; 2]>);
+    for span in u[p..u.len() - p].windows(2).filter(|span| span[0] < span[1]) {
+        for k in 0..samples {
+            let t = span[0] + (span[1] - span[0]) * (k as f64 + 0.5) / samples as f64;
+            let (way, bend) = (at(u1, p - 1, &first, t), at(u2, p - 2, &second, t));
+            let size = way[0].hypot(way[1]) * bend[0].hypot(bend[1]);
+            let area = cross(way, bend);
+            let sign = if area > 1e-10 * size { 1 } else { -i32::from(area < -1e-10 * size) };
+            if sign != 0 && signs.last() != Some(&sign) {
+                signs.push(sign);
+            }
+            if let Some(b) = before {
+                turning += cross(b, way).atan2(b[0] * way[0] + b[1] * way[1]);
+            }
+            before = Some(way);
+        }
+    }
+    Bends { signs, turning }
+}
+
+/// The angle by which a polygon turns from its first leg to its last; a closed one, to its first.
+#[must_use]
+pub fn turning(polygon: &Rows, closed: bool) -> f64 {
+    let n = polygon.len();
+    let leg = |i: usize| [0, 1].map(|c| polygon[(i + 1) % n][c] - polygon[i % n][c]);
+    (0..if closed { n } else { n - 2 })
+        .map(|k| (leg(k), leg(k + 1)))
+        .map(|(a, b)| (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]))
+        .sum()
 }
 
 /// `p + eps (other - p)`.
@@ -84,7 +197,7 @@ pub fn algorithm_1(a: &Rows, q: &Rows, threshold: f64, steps: usize) -> (Vec<f64
 }
 
 /// How far a planar polygon is from a stationary point of the sum of squares `|Q - A P|^2 / 2` under
-/// the condition that no turn changes its sign (Karush, Kuhn and Tucker).
+/// the condition that no triple changes its sign (Karush, Kuhn and Tucker).
 #[derive(Debug, Clone, Copy)]
 pub struct Optimality {
     /// What no nonnegative multipliers can balance of the gradient, in units of the gradient.
@@ -95,7 +208,7 @@ pub struct Optimality {
 
 /// Measures [`Optimality`] with the best multipliers, found one by one in many rounds.
 #[must_use]
-pub fn optimality(a: &Rows, q: &Rows, p: &Rows, signs: &[i32]) -> Optimality {
+pub fn optimality(a: &Rows, q: &Rows, p: &Rows, triples: &[Triple]) -> Optimality {
     let n = p.len();
     let r = dense::differences(a, q, p);
     // A^T (Q - A P): the way the fit would go if it could.
@@ -105,12 +218,9 @@ pub fn optimality(a: &Rows, q: &Rows, p: &Rows, signs: &[i32]) -> Optimality {
         .collect();
     let norm = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
     let (whole, squares) = (norm(&rest), 0.5 * r.iter().flatten().map(|x| x * x).sum::<f64>());
-    let corners: Vec<(f64, Vec<f64>)> = signs
+    let corners: Vec<(f64, Vec<f64>)> = triples
         .iter()
-        .enumerate()
-        .filter(|(_, sign)| **sign != 0)
-        .map(|(k, &sign)| {
-            let (i, j, l) = (k, (k + 1) % n, (k + 2) % n);
+        .map(|&([i, j, l], sign)| {
             let s = f64::from(sign);
             let (u, v) =
                 ([p[j][0] - p[i][0], p[j][1] - p[i][1]], [p[l][0] - p[j][0], p[l][1] - p[j][1]]);

@@ -151,7 +151,7 @@ fn steps_that_keep_turns_allocate_nothing() {
         let t = assign_parameters(view, closed, &Parameterization::Chord).unwrap();
         let knots = place_knots(3, &t, &KnotPlacement::Averaged).unwrap();
         let operator = interpolation(&t, &knots).unwrap().operator;
-        let shape = || Shape::of(&data, closed);
+        let shape = || Shape::of(&data, closed, 3);
         let rules: [Box<dyn UpdateRule + '_>; 2] = [
             Box::new(ConvexityPreserving::new(Pia, shape(), 1e-9)),
             Box::new(ClosestConvex::new(&operator, shape()).unwrap()),

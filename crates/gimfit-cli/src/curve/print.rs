@@ -55,9 +55,10 @@ pub(super) fn report(job: &Job<'_>, written: &[String]) -> String {
 
 /// What turns were kept, and how.
 fn shape_line(shape: &ShapeReport) -> String {
-    let ShapeReport { left, right, straight, inserted_knots, kept } = *shape;
+    let &ShapeReport { left, right, straight, control_left, control_right, .. } = shape;
+    let ShapeReport { inserted_knots, kept, .. } = *shape;
     let mut line = format!(
-        "{} turns {} ({left} left, {right} right)",
+        "{} turns of the data {} ({left} left, {right} right)",
         left + right,
         if kept { "kept" } else { "not all kept" }
     );
@@ -72,6 +73,12 @@ fn shape_line(shape: &ShapeReport) -> String {
         line += &format!(
             ", over {inserted_knots} inserted knot{}",
             if inserted_knots == 1 { "" } else { "s" }
+        );
+    }
+    if straight == 0 && (control_left, control_right) != (left, right) {
+        line += &format!(
+            "; the control polygon has {} ({control_left} left, {control_right} right)",
+            control_left + control_right
         );
     }
     line

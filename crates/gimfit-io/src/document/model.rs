@@ -163,9 +163,15 @@ pub struct ShapeData {
     pub right: usize,
     /// Corners that do not turn.
     pub straight: usize,
+    /// Corners of the control polygon written that turn left.
+    #[serde(default)]
+    pub control_left: usize,
+    /// Corners of the control polygon written that turn right.
+    #[serde(default)]
+    pub control_right: usize,
     /// Knots inserted so that the control polygon shows the shape.
     pub inserted_knots: usize,
-    /// Whether the control polygon turns as the data do.
+    /// Whether the control polygon turns as the data do, and the curve has no more inflections.
     pub kept: bool,
 }
 
@@ -173,8 +179,16 @@ impl ShapeData {
     /// Takes a report over.
     #[must_use]
     pub fn of(shape: &ShapeReport) -> Self {
-        let ShapeReport { left, right, straight, inserted_knots, kept } = *shape;
-        Self { left, right, straight, inserted_knots, kept }
+        let ShapeReport {
+            left,
+            right,
+            straight,
+            control_left,
+            control_right,
+            inserted_knots,
+            kept,
+        } = *shape;
+        Self { left, right, straight, control_left, control_right, inserted_knots, kept }
     }
 }
 

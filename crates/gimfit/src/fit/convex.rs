@@ -7,14 +7,14 @@ use crate::Error;
 use crate::collocation::{
     BandedCollocation, CollocationMatrix, CollocationOperator, ControlLayout,
 };
-use crate::geometry::{Curve, KnotInsertion};
+use crate::geometry::{Curve, KnotInsertion, bend_signs};
 use crate::iteration::UpdateRule;
 use crate::iteration::update::{ClosestConvex, ConvexityPreserving, Pia, Preconditioned, Staged};
 use crate::knots::KnotVector;
 use crate::parameters::Parameters;
 use crate::points::{Points, PointsView};
 use crate::report::ShapeReport;
-use crate::shape::{Shape, Turn};
+use crate::shape::{Shape, Turn, turn};
 
 /// A shape to keep, and how.
 pub(super) struct Keeping {
@@ -39,6 +39,7 @@ impl Keeping {
         convexity: Convexity,
         data: PointsView<'_>,
         closed: bool,
+        degree: usize,
     ) -> Result<Self, Error> {
         if data.dimension() != 2 {
             return Err(Error::Incompatible {
@@ -53,7 +54,8 @@ impl Keeping {
         if let Some(first) = (0..pairs).find(|&j| data.point(j) == data.point(next(j))) {
             return Err(Error::RepeatedPoints { first, second: next(first), others: 0 });
         }
-        Ok(Self { shape: Shape::of(data.coordinates(), closed), convexity, insertion: None })
+        let shape = Shape::of(data.coordinates(), closed, degree);
+        Ok(Self { shape, convexity, insertion: None })
     }
 
     /// Prepares the rule. `threshold` stands in for the paper's D where none was chosen; `gradual`
@@ -189,7 +191,14 @@ impl Keeping {
         if !intervals.bend_as_asked(&curve) {
             return Ok(Interpolant::Lost);
         }
-        Ok(intervals.insertion(&curve).map_or(Interpolant::Lost, Interpolant::KeptWith))
+        let Some(insertion) = intervals.insertion(&curve) else { return Ok(Interpolant::Lost) };
+        let finer = insertion.apply(curve.control_points().coordinates(), 2);
+        let free = 2 * (curve.free_control_points() + insertion.count());
+        if self.shape.turns_no_further(&finer[..free]) {
+            Ok(Interpolant::KeptWith(insertion))
+        } else {
+            Ok(Interpolant::Lost)
+        }
     }
 
     /// The knots of the curve returned.
@@ -205,17 +214,55 @@ impl Keeping {
         }
     }
 
-    /// The account, from the control points that moved.
-    pub(super) fn report(&self, control: &[f64]) -> ShapeReport {
+    /// The account, from the control points that moved and the curve of the end.
+    pub(super) fn report(&self, control: &[f64], curve: &Curve) -> ShapeReport {
+        let free = curve.free_control_points();
+        let stored = &curve.control_points().coordinates()[..2 * free];
+        let drawn = if self.insertion.is_some() { stored } else { control };
+        let turns = turns(drawn, self.shape.is_closed());
         ShapeReport {
             left: self.shape.count(Turn::Left),
             right: self.shape.count(Turn::Right),
             straight: self.shape.count(Turn::Straight),
+            control_left: turns.iter().filter(|&&turn| turn == Turn::Left).count(),
+            control_right: turns.iter().filter(|&&turn| turn == Turn::Right).count(),
             inserted_knots: self.insertion.as_ref().map_or(0, KnotInsertion::count),
-            // Inserted knots were chosen so that the polygon turns as asked.
-            kept: self.insertion.is_some() || self.shape.is_kept_by(control),
+            // Inserted knots were chosen so that the polygon turns as asked, for a curve that bends
+            // as asked.
+            kept: self.insertion.is_some()
+                || self.shape.is_kept_by(control)
+                    && (self.shape.is_assured_by(control) || bends_no_more(&self.shape, curve)),
         }
     }
+}
+
+/// The turns of a polygon, exactly, without legs of no length.
+fn turns(polygon: &[f64], closed: bool) -> Vec<Turn> {
+    let mut points: Vec<[f64; 2]> = polygon.chunks_exact(2).map(|p| [p[0], p[1]]).collect();
+    points.dedup();
+    if closed {
+        while points.len() > 1 && points.first() == points.last() {
+            points.pop();
+        }
+        points.extend_from_within(..points.len().min(2));
+    }
+    points.windows(3).map(|p| turn(p[0], p[1], p[2])).collect()
+}
+
+/// Whether a curve changes the side to which it bends no more often than a shape does.
+fn bends_no_more(shape: &Shape, curve: &Curve) -> bool {
+    let (start, end) = curve.domain();
+    let size = curve.control_points().coordinates().iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let mut bends = Vec::new();
+    bend_signs(curve, start, end, size, &mut bends);
+    bends.retain(|&bend| bend != Turn::Straight);
+    bends.dedup();
+    let round = shape.is_closed() && bends.first() != bends.last();
+    let changes = bends.len().saturating_sub(1) + usize::from(round);
+    let allowed = shape.changes_of_side();
+    let sides = [Turn::Left, Turn::Right].map(|turn| shape.count(turn) > 0);
+    let allows = |bend: &Turn| sides[usize::from(*bend == Turn::Right)];
+    changes <= allowed && (sides == [false; 2] || bends.iter().all(allows))
 }
 
 /// What an interpolating curve is made of, but for its control points.

@@ -231,7 +231,10 @@ fn fit_problem(
                 why: "it needs parameters that stay; use pia or auto",
             });
         }
-        Some(convexity) => Some(Keeping::new(convexity, data, parameters.period().is_some())?),
+        Some(convexity) => {
+            let closed = parameters.period().is_some();
+            Some(Keeping::new(convexity, data, closed, knots.degree())?)
+        }
         None => None,
     };
     let rows = if let Method::Geometric { global_start } = options.method {
@@ -302,7 +305,8 @@ fn fit_problem(
     };
 
     let (parameters, spacing_ratio) = finish_parameters(parameters, &knots, layout);
-    let shape = keeping.as_ref().map(|keeping| keeping.report(&solved.control));
+    // A copy only where the shape is to be judged by what moved.
+    let moved = keeping.as_ref().map(|_| solved.control.clone());
     let control_points = Points::new(dimension, expand(solved.control))?;
     let knots = match &keeping {
         Some(keeping) => keeping.knots(knots),
@@ -312,6 +316,7 @@ fn fit_problem(
         None => Curve::new(knots, control_points)?,
         Some(weights) => Curve::rational(knots, control_points, layout.expand(weights, 1))?,
     };
+    let shape = keeping.zip(moved).map(|(keeping, moved)| keeping.report(&moved, &curve));
     let norms = solved.norms;
     let (max_deviation, max_deviation_index) =
         if solved.run.local.is_none() && norms.max <= size.rounding_level() {

@@ -1,8 +1,15 @@
 //! The shape that a fit is to keep: the turns of the data polygon, one by one.
 
+use super::guards::{Guards, Lead};
 use super::turn::{Turn, cross, turn_beyond_rounding};
 
-/// The turns of a planar polygon.
+/// The turns of a planar polygon, and how far it may turn to be the control polygon of a curve that
+/// bends as it does.
+///
+/// A polygon can turn to the left at every corner and yet fold back at each, or wind round more than
+/// once. To keep a shape it must not: any degree + 1 successive points that are the corners of a
+/// convex polygon must stay so, and a stretch of successive turns to one side must turn by less than
+/// half a turn more or less than it did.
 ///
 /// A straight corner of the data, straight up to the rounding of its coordinates, has no sign to
 /// keep. Between two left turns it is taken for one
@@ -13,11 +20,13 @@ use super::turn::{Turn, cross, turn_beyond_rounding};
 pub struct Shape {
     closed: bool,
     points: usize,
+    degree: usize,
     corners: Vec<Corner>,
+    guards: Guards,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Corner {
+pub(super) struct Corner {
     /// The side it must not leave; [`Turn::Straight`] where it may turn as it likes.
     side: Turn,
     /// Whether the data are straight here, so that a straight corner will do.
@@ -26,9 +35,9 @@ struct Corner {
 
 impl Shape {
     /// The shape of a polygon of shape (points, 2), whose last point is followed by its first where
-    /// it is closed.
+    /// it is closed, for control polygons of curves of this degree.
     #[must_use]
-    pub fn of(polygon: &[f64], closed: bool) -> Self {
+    pub fn of(polygon: &[f64], closed: bool, degree: usize) -> Self {
         let points = polygon.len() / 2;
         let count = if points < 3 {
             0
@@ -37,13 +46,15 @@ impl Shape {
         } else {
             points - 2
         };
-        let mut shape = Self { closed, points, corners: Vec::with_capacity(count) };
+        let corners = Vec::with_capacity(count);
+        let mut shape = Self { closed, points, degree, corners, guards: Guards::default() };
         for k in 0..count {
             let [a, b, c] = shape.points_of(k).map(|i| point(polygon, i));
             let side = turn_beyond_rounding(a, b, c);
-            shape.corners.push(Corner { side, straight: side == Turn::Straight });
+            shape.corners.push(Corner::new(side, side == Turn::Straight));
         }
         shape.settle_straight_runs();
+        shape.guards = Guards::of(&shape, polygon, degree);
         shape
     }
 
@@ -118,6 +129,38 @@ impl Shape {
         self.corners[k].side
     }
 
+    /// Whether the data are straight at corner `k`.
+    pub(super) fn is_straight(&self, k: usize) -> bool {
+        self.corners[k].straight
+    }
+
+    /// How often the side changes from one corner that has one to the next.
+    pub(crate) fn changes_of_side(&self) -> usize {
+        let mut sides: Vec<Turn> = self.corners.iter().map(|corner| corner.side).collect();
+        sides.retain(|&side| side != Turn::Straight);
+        sides.dedup();
+        let round = self.closed && sides.first() != sides.last();
+        sides.len().saturating_sub(1) + usize::from(round)
+    }
+
+    /// The triples of points that must turn to a side, with that side: at corners, and where
+    /// successive points close to a convex polygon.
+    pub(crate) fn triples(&self) -> impl Iterator<Item = ([usize; 3], Turn)> {
+        let corners = (0..self.len()).map(|k| (self.points_of(k), self.side(k)));
+        let closing = self.guards.triangles.iter().map(|t| (t.points, t.corner.side));
+        corners.filter(|(_, side)| *side != Turn::Straight).chain(closing)
+    }
+
+    /// The legs that must not turn away from those of the data by a right angle.
+    pub(crate) fn leads(&self) -> &[Lead] {
+        &self.guards.leads
+    }
+
+    /// How many legs a triple spans at most.
+    pub(crate) fn reach(&self) -> usize {
+        if self.guards.triangles.is_empty() { 2 } else { self.degree.max(2) }
+    }
+
     /// The side kept at a point of the polygon; an open one has no corner at its ends, which take
     /// that of their neighbours.
     pub(crate) fn side_at(&self, point: usize) -> Turn {
@@ -135,25 +178,44 @@ impl Shape {
     }
 
     /// Whether another polygon of as many points, shape (points, 2), turns the same way at every
-    /// corner.
+    /// corner, nowhere folds back, and winds no further.
     #[must_use]
     pub fn is_kept_by(&self, polygon: &[f64]) -> bool {
-        self.holds_for(|i| point(polygon, i), Corner::allows)
+        self.is_kept_at(|i| point(polygon, i))
     }
 
     /// The same for a polygon that has moved by `scale` times some vectors, as it would be stored.
     pub(crate) fn is_kept_after(&self, polygon: &[f64], vectors: &[f64], scale: f64) -> bool {
-        self.holds_for(|i| moved(polygon, vectors, scale, i), Corner::allows)
+        self.is_kept_at(|i| moved(polygon, vectors, scale, i))
     }
 
-    /// Whether a moved polygon keeps the shape and has no straight corner where it has a side.
+    fn is_kept_at(&self, point: impl Fn(usize) -> [f64; 2] + Copy) -> bool {
+        self.holds_for(point, Corner::allows) && self.guards.winds_as_the_data(self, point)
+    }
+
+    /// Whether a polygon of any number of points winds, all in all, no further than this one: by less
+    /// than half a turn more from end to end, and for each change of side.
+    pub(crate) fn turns_no_further(&self, polygon: &[f64]) -> bool {
+        self.guards.turn_no_further(polygon, self.closed, self.changes_of_side())
+    }
+
+    /// Whether it is certain that a curve whose control polygon keeps this shape has no more
+    /// inflections than the data.
+    pub(crate) fn is_assured_by(&self, polygon: &[f64]) -> bool {
+        self.guards.assure(self, polygon, self.degree)
+    }
+
+    /// Whether a polygon that has moved by less than would fold it back keeps the shape, and has no
+    /// straight corner where it has a side.
     pub(crate) fn is_strict_after(&self, polygon: &[f64], vectors: &[f64], scale: f64) -> bool {
-        self.holds_for(
-            |i| moved(polygon, vectors, scale, i),
-            |corner, [a, b, c]| {
-                corner.side == Turn::Straight || corner.side == Turn::of(cross(a, b, c))
-            },
-        )
+        let at = |i| moved(polygon, vectors, scale, i);
+        let ahead = |lead: &Lead| {
+            let [from, to] = lead.points.map(at);
+            (to[0] - from[0]) * lead.along[0] + (to[1] - from[1]) * lead.along[1] > 0.0
+        };
+        self.holds_for(at, |corner, [a, b, c]| {
+            corner.side == Turn::Straight || corner.side == Turn::of(cross(a, b, c))
+        }) && self.guards.leads.iter().all(ahead)
     }
 
     /// Whether corner `k` of a polygon, which has a side to keep, is straight up to rounding or on
@@ -179,16 +241,15 @@ impl Shape {
             .iter()
             .enumerate()
             .all(|(k, &corner)| allowed(corner, self.points_of(k).map(point)))
-    }
-
-    /// The cross product of the legs at corner `k`, with the sign of the exact one.
-    pub(crate) fn cross_of(&self, k: usize, point: impl Fn(usize) -> [f64; 2]) -> f64 {
-        let [a, b, c] = self.points_of(k).map(point);
-        cross(a, b, c)
+            && self.guards.triangles.iter().all(|t| allowed(t.corner, t.points.map(point)))
     }
 }
 
 impl Corner {
+    pub(super) fn new(side: Turn, straight: bool) -> Self {
+        Self { side, straight }
+    }
+
     fn allows(self, [a, b, c]: [[f64; 2]; 3]) -> bool {
         self.side == Turn::Straight
             || self.side == Turn::of(cross(a, b, c))
@@ -209,7 +270,7 @@ mod tests {
     use super::*;
 
     fn sides(polygon: &[[f64; 2]], closed: bool) -> Vec<f64> {
-        let shape = Shape::of(polygon.as_flattened(), closed);
+        let shape = Shape::of(polygon.as_flattened(), closed, 3);
         (0..shape.len()).map(|k| shape.side(k).sign()).collect()
     }
 
@@ -231,7 +292,7 @@ mod tests {
     #[test]
     fn a_straight_corner_of_the_data_may_stay_straight_but_not_turn_away() {
         let data = [0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 2.0, 0.0, 2.0, 1.0];
-        let shape = Shape::of(&data, false);
+        let shape = Shape::of(&data, false, 3);
         assert!(shape.is_kept_by(&data) && !shape.is_strict_after(&data, &[0.0; 10], 1.0));
         let out = [0.0, 1.0, 0.0, 0.0, 1.0, -0.1, 2.0, 0.0, 2.0, 1.0];
         let into = [0.0, 1.0, 0.0, 0.0, 1.0, 0.1, 2.0, 0.0, 2.0, 1.0];

@@ -1,9 +1,11 @@
-//! The corners of the control polygon as constraints: each must stay on its side, `c > 0` with
-//! `c = s (P_1 - P_0) x (P_2 - P_1)`.
+//! The shape of the control polygon as constraints. Corners, and what closes successive points to a
+//! convex polygon, must stay on their side: `c > 0` with `c = s (P_1 - P_0) x (P_2 - P_1)`. The first
+//! and the last leg of a stretch must lead ahead: `c > 0` with `c = (P_1 - P_0) . d` and the leg `d`
+//! of the data, which is a corner as well, of that leg and `d` turned by a right angle.
 
 use super::least_squares::LeastSquares;
 use super::normal::SymmetricBand;
-use crate::shape::{Shape, Turn, point};
+use crate::shape::{self, Shape, point};
 
 /// Share of the way to the straight line that a step may take at most.
 const MOST_OF_THE_WAY: f64 = 0.995;
@@ -18,11 +20,12 @@ pub(super) struct Corners {
 
 #[derive(Debug, Clone, Copy)]
 struct Corner {
-    /// Its number in the shape.
-    number: usize,
+    /// Where the second leg is fixed, the last point is none of its own.
     points: [usize; 3],
     /// 1 for left, -1 for right.
     side: f64,
+    /// The second leg stays as it is.
+    fixed: bool,
     /// The legs.
     legs: [[f64; 2]; 2],
     /// How far the corner is from straight: `c`, an area.
@@ -44,7 +47,7 @@ impl Corner {
         let [a, b] = self.legs;
         let s = self.side;
         let by_a = [s * b[1], -s * b[0]];
-        let by_b = [-s * a[1], s * a[0]];
+        let by_b = if self.fixed { [0.0; 2] } else { [-s * a[1], s * a[0]] };
         [[-by_a[0], -by_a[1]], [by_a[0] - by_b[0], by_a[1] - by_b[1]], by_b]
     }
 
@@ -55,16 +58,23 @@ impl Corner {
 
 impl Corners {
     pub(super) fn of(shape: &Shape) -> Self {
-        let list = (0..shape.len()).filter(|&k| shape.side(k) != Turn::Straight).map(|k| Corner {
-            number: k,
-            points: shape.points_of(k),
-            side: shape.side(k).sign(),
-            legs: [[0.0; 2]; 2],
+        let corner = |points, side, legs, fixed| Corner {
+            points,
+            side,
+            fixed,
+            legs,
             slack: 0.0,
             multiplier: 0.0,
             linear: 0.0,
             quadratic: 0.0,
+        };
+        let turns =
+            shape.triples().map(|(points, side)| corner(points, side.sign(), [[0.0; 2]; 2], false));
+        let leads = shape.leads().iter().map(|lead| {
+            let ([from, to], [x, y]) = (lead.points, lead.along);
+            corner([from, to, to], 1.0, [[0.0; 2], [-y, x]], true)
         });
+        let list = turns.chain(leads);
         Self { list: list.collect() }
     }
 
@@ -73,12 +83,17 @@ impl Corners {
     }
 
     /// Looks at control points. False if a corner is straight or on the wrong side.
-    pub(super) fn look(&mut self, shape: &Shape, control: &[f64]) -> bool {
+    pub(super) fn look(&mut self, control: &[f64]) -> bool {
         let mut inside = true;
         for corner in &mut self.list {
             let [p, q, r] = corner.points.map(|i| point(control, i));
-            corner.legs = [[q[0] - p[0], q[1] - p[1]], [r[0] - q[0], r[1] - q[1]]];
-            corner.slack = corner.side * shape.cross_of(corner.number, |i| point(control, i));
+            corner.legs[0] = [q[0] - p[0], q[1] - p[1]];
+            corner.slack = if corner.fixed {
+                cross(corner.legs[0], corner.legs[1])
+            } else {
+                corner.legs[1] = [r[0] - q[0], r[1] - q[1]];
+                corner.side * shape::cross(p, q, r)
+            };
             inside &= corner.slack > 0.0;
         }
         inside
@@ -119,6 +134,7 @@ impl Corners {
                 }
                 // H couples the points by the matrix s [0 1; -1 0].
                 let sign = match (i, j) {
+                    _ if corner.fixed => 0.0,
                     (0, 1) | (1, 2) => 1.0,
                     (0, 2) => -1.0,
                     _ => 0.0,
@@ -126,7 +142,7 @@ impl Corners {
                 let bend = sign * corner.side * z * if convex { 0.5 } else { 1.0 };
                 block[0][1] -= bend;
                 block[1][0] += bend;
-                if convex {
+                if convex && !corner.fixed {
                     let spread = match (i, j) {
                         (0, 0) | (2, 2) => 0.5,
                         (1, 1) => 1.0,
@@ -155,6 +171,7 @@ impl Corners {
         for corner in &mut self.list {
             let [p, q, r] =
                 corner.points.map(|i| fit.unknown(i)).map(|at| [step[at], step[at + 1]]);
+            // Of a fixed leg both ends are the same point.
             let (da, db) = ([q[0] - p[0], q[1] - p[1]], [r[0] - q[0], r[1] - q[1]]);
             let [a, b] = corner.legs;
             corner.linear = corner.side * (cross(da, b) + cross(a, db));

@@ -17,7 +17,8 @@ pub(super) struct LeastSquares {
 }
 
 impl LeastSquares {
-    pub(super) fn new(operator: &dyn CollocationMatrix, closed: bool) -> Self {
+    /// For constraints that tie points up to `ties` apart.
+    pub(super) fn new(operator: &dyn CollocationMatrix, closed: bool, ties: usize) -> Self {
         let points = operator.points();
         let mut fit = Self {
             starts: vec![0],
@@ -26,8 +27,8 @@ impl LeastSquares {
             closed,
             normal: SymmetricBand::zeros(0, 0),
         };
-        // A corner reaches over three neighbours, which folding sets up to four places apart.
-        let mut reach = if closed { 4 } else { 2 };
+        // Folding sets neighbours up to two places apart.
+        let mut reach = if closed { 2 * ties } else { ties };
         for j in 0..points {
             let (columns, weights) = (&mut fit.columns, &mut fit.weights);
             operator.visit_row(j, &mut |column, weight| {

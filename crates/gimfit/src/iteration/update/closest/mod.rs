@@ -83,7 +83,7 @@ impl ClosestConvex {
     /// # Errors
     /// [`Error::Singular`].
     pub fn new(operator: &dyn CollocationMatrix, shape: Shape) -> Result<Self, Error> {
-        let fit = LeastSquares::new(operator, shape.is_closed());
+        let fit = LeastSquares::new(operator, shape.is_closed(), shape.reach());
         let size = 2 * operator.points();
         Ok(Self {
             whole: operator.factor(None)?,
@@ -115,6 +115,9 @@ impl ClosestConvex {
     /// A step towards the minimum of the barrier function. False if there is none that gains.
     fn step_inside(&mut self, control: &[f64], vectors: &mut [f64]) -> bool {
         let squares = 0.5 * dot(vectors, vectors);
+        // What rounding of the coordinates makes of it.
+        let largest = control.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let noise = f64::EPSILON * largest * vectors.iter().map(|x| x.abs()).sum::<f64>();
         let most = squares / self.corners.len() as f64;
         if self.mu == 0.0 {
             self.mu = FIRST_BARRIER * most;
@@ -151,7 +154,7 @@ impl ClosestConvex {
         let gap = self.mu * self.corners.len() as f64;
         let left = (gap + promise) / squares;
         if halvings > MOST_HALVINGS || self.crawling > MOST_CRAWLING || !promise.is_finite() {
-            let least = left <= LEAST_AT_ROUNDING;
+            let least = left <= LEAST_AT_ROUNDING.max(noise / squares);
             self.phase =
                 Phase::Ended(if least { Termination::Constrained } else { Termination::Stalled });
             return false;
@@ -161,7 +164,7 @@ impl ClosestConvex {
         }
         self.corners.move_multipliers(self.mu, share);
         self.cautious = share < SHORT;
-        let stands = self.squares == squares;
+        let stands = (self.squares - squares).abs() <= noise;
         self.squares = squares;
         self.crawling = if share < CRAWLING || stands { self.crawling + 1 } else { 0 };
         if left <= LEAST {
@@ -209,7 +212,7 @@ impl UpdateRule for ClosestConvex {
             }
             Phase::Entering | Phase::Inside => {
                 self.phase = Phase::Inside;
-                self.corners.look(&self.shape, control) && self.step_inside(control, vectors)
+                self.corners.look(control) && self.step_inside(control, vectors)
             }
         };
         if !moved {

@@ -90,7 +90,7 @@ mod tests {
             [(59.0 + step) / 100.0, (635.0 + 6.0 * step) / 10_000.0]
         }));
         data.extend([0.67, 0.2]);
-        let shape = Shape::of(&data, false);
+        let shape = Shape::of(&data, false, 3);
         let mut vectors = vec![0.0; data.len()];
         assert!(bulge(&shape, &data, &mut vectors));
         assert!(shape.is_strict_after(&data, &vectors, 1.0));
