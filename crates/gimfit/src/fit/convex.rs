@@ -144,7 +144,7 @@ impl Keeping {
                 kept => {
                     choices.push(match kept {
                     Interpolant::Kept => {
-                        "convexity: the interpolant and its control polygon turn as the data do"
+                        "convexity: the control polygon of the interpolant turns as the data do"
                             .into()
                     }
                     _ => "convexity: the interpolant does not turn as the data do; the least sum \
