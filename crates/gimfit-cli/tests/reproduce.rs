@@ -59,6 +59,7 @@ fn tables_are_listed_one_a_line() {
             "chen2012",
             "lin2010",
             "orsi2021",
+            "peng-li",
             "spectra",
             "bases"
         ]

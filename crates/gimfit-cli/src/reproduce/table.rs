@@ -69,6 +69,14 @@ impl Entry {
         Self::within(label, text, value, relative * value.abs(), (recomputed, 12))
     }
 
+    /// Compares a count: it is the same or it is not.
+    pub(super) fn counted(label: String, reference: (String, f64), recomputed: f64) -> Self {
+        let (text, value) = reference;
+        let mut entry = Self::within(label, text, value, 0.0, (recomputed, 1));
+        entry.recomputed = format!("{recomputed}");
+        entry
+    }
+
     /// Compares with an upper bound.
     pub(super) fn bounded(label: String, bound: (&str, f64), recomputed: f64) -> Self {
         let (text, value) = bound;
