@@ -65,6 +65,15 @@ def not_a_knot(parameters):
     return np.concatenate([[parameters[0]] * 4, parameters[2:-2], [parameters[-1]] * 4])
 
 
+def least_squares(parameters, control_points):
+    """Every span holds about as many points (The NURBS Book, eq. 9.69)."""
+    place = np.arange(1, control_points - DEGREE) * (len(parameters) / (control_points - DEGREE))
+    i = place.astype(np.int64)
+    share = place - i
+    inner = (1 - share) * parameters[i - 1] + share * parameters[i]
+    return np.concatenate([[parameters[0]] * 4, inner, [parameters[-1]] * 4])
+
+
 def make(workload, count):
     """Writes points (.p), parameters (.u) and not-a-knot knots (.t) where they are given; for a
     surface parameters of rows (.u) and columns (.v), and their knots (.s and .t)."""
@@ -73,6 +82,13 @@ def make(workload, count):
         u, v, points = grid_points(count)
         for kind, values in zip("uvstp", (u, v, not_a_knot(u), not_a_knot(v), points)):
             save(f"{name}.{kind}", values)
+        return
+    if workload == "W4":
+        points = open_points(count)
+        parameters = chord_lengths(points)
+        save(name + ".t", least_squares(parameters, count // 10))
+        save(name + ".u", parameters)
+        save(name + ".p", points)
         return
     if workload == "W10":
         points = open_points(count)

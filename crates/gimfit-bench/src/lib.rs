@@ -5,6 +5,7 @@ pub mod clock;
 pub mod data;
 pub mod edit;
 pub mod edit_surface;
+pub mod least_squares;
 pub mod memory;
 pub mod nearest;
 pub mod report;

@@ -7,7 +7,7 @@ use anyhow::{bail, ensure};
 use clap::Parser;
 use gimfit_bench::report::{self, PEER};
 use gimfit_bench::workload::Workload;
-use gimfit_bench::{edit, edit_surface, nearest, surface};
+use gimfit_bench::{edit, edit_surface, least_squares, nearest, surface};
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -19,9 +19,9 @@ struct Arguments {
     /// Print the cases
     #[arg(long, exclusive = true)]
     list: bool,
-    /// W1, W2 or W3, then gimfit.interpolate, then the number of points (of W3: in a row); or W7,
-    /// gimfit.nearest, and the number of queries; or W10 or W10-grid, gimfit.edit, and the number of
-    /// points, of a grid in a row
+    /// W1, W2 or W3, then gimfit.interpolate, then the number of points (of W3: in a row); or W4,
+    /// gimfit.least_squares, and the number of points; or W7, gimfit.nearest, and the number of
+    /// queries; or W10 or W10-grid, gimfit.edit, and the number of points, of a grid in a row
     #[arg(value_names = ["WORKLOAD", "PEER", "SIZE"], num_args = 3)]
     case: Vec<String>,
     /// How long to repeat the case; otherwise $BENCH_SECONDS, or 3
@@ -40,6 +40,8 @@ fn main() -> anyhow::Result<()> {
             writeln!(output, "{}\t{PEER}\t{SIZES}\t{}", workload.name(), workload.note())?;
         }
         writeln!(output, "{}\t{PEER}\t{}\t{}", surface::NAME, surface::SIZES, surface::NOTE)?;
+        let (name, peer) = (least_squares::NAME, least_squares::PEER);
+        writeln!(output, "{name}\t{peer}\t{}\t{}", least_squares::SIZES, least_squares::NOTE)?;
         let (name, peer) = (nearest::NAME, nearest::PEER);
         writeln!(output, "{name}\t{peer}\t{}\t{}", nearest::SIZES, nearest::NOTE)?;
         let (name, peer) = (edit::NAME, edit::PEER);
@@ -54,6 +56,7 @@ fn main() -> anyhow::Result<()> {
     let expected = match workload.as_str() {
         nearest::NAME => nearest::PEER,
         edit::NAME | edit_surface::NAME => edit::PEER,
+        least_squares::NAME => least_squares::PEER,
         _ => PEER,
     };
     ensure!(peer == expected, "there is no peer {peer}; ours is {expected}");

@@ -3,7 +3,7 @@
 use crate::clock::{Budget, Times, median, repeat};
 use crate::surface::{self, Grid};
 use crate::workload::{Input, Residuals, Workload};
-use crate::{data, memory};
+use crate::{data, least_squares, memory};
 use gimfit::RunReport;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -23,7 +23,19 @@ pub fn run(
     control_points: Option<&Path>,
 ) -> anyhow::Result<Value> {
     let count: usize = size.parse()?;
-    let case = Case { workload, size, seconds, control_points };
+    let mut case = Case { workload, peer: PEER, size, seconds, control_points };
+    if workload == least_squares::NAME {
+        case.peer = least_squares::PEER;
+        let input = least_squares::Input::read(count)?;
+        return case.run(
+            || Ok(input.copy()),
+            |owned| input.fit(owned),
+            |fit| {
+                let control = fit.curve.control_points().coordinates();
+                Ok((input.check(fit)?, fit.report.run.clone(), control))
+            },
+        );
+    }
     if workload == surface::NAME {
         let grid = Grid::read(count)?;
         let options = grid.options();
@@ -53,6 +65,7 @@ pub fn run(
 /// What is asked for on the command line.
 struct Case<'a> {
     workload: &'a str,
+    peer: &'a str,
     size: &'a str,
     seconds: f64,
     control_points: Option<&'a Path>,
@@ -83,7 +96,7 @@ impl Case<'_> {
         let wall: f64 = times.wall.iter().sum();
         Ok(json!({
             "workload": self.workload,
-            "peer": PEER,
+            "peer": self.peer,
             "size": self.size,
             "median": median(&times.wall),
             "min": times.wall.iter().copied().fold(f64::INFINITY, f64::min),

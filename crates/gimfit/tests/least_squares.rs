@@ -5,6 +5,7 @@
 
 use gimfit::LeastSquaresMethod as Method;
 use gimfit::collocation::LeastSquaresCollocation;
+use gimfit::fit::least_squares;
 use gimfit::{
     CurveFit, Error, KnotVector, LeastSquaresKnots, LeastSquaresOptions, LeastSquaresWeight,
     Parameterization, Points, Termination, fit_least_squares,
@@ -387,6 +388,23 @@ fn the_order_of_the_data_does_not_matter() {
     let gap = distance(&rows(one.curve.control_points()), &rows(two.curve.control_points()));
     assert!(gap < 1e-11, "{gap:e}");
     assert_eq!(order[two.report.max_residual_index], one.report.max_residual_index);
+}
+
+#[test]
+fn given_parameters_and_knots_make_the_same_curve() {
+    let data = random_walk(33, 80, 2);
+    for closed in [false, true] {
+        let one = fit(&data, &LeastSquaresOptions { closed, ..options(12) });
+        let (t, knots) = (one.parameters.clone(), one.curve.knots().clone());
+        let two = least_squares(&points(&data), t, knots, &options(0)).unwrap();
+        assert!(two.report.converged() && two.report.closed == closed);
+        let gap = distance(&rows(one.curve.control_points()), &rows(two.curve.control_points()));
+        assert!(gap < 1e-11, "{gap:e}");
+    }
+    let knots = KnotVector::open(1, vec![0.0, 0.0, 1.0, 1.0]).unwrap();
+    assert!(least_squares(&points(&data), vec![0.5; 79], knots.clone(), &options(0)).is_err());
+    assert!(least_squares(&points(&data), vec![f64::NAN; 80], knots.clone(), &options(0)).is_err());
+    assert!(least_squares(&points(&data), vec![2.0; 80], knots, &options(0)).is_err());
 }
 
 #[test]

@@ -37,6 +37,13 @@ pub(super) fn figure(job: &Job<'_>) -> String {
         .filter(|entry| entry.max_residual.is_finite() && entry.rms_residual.is_finite())
         .map(|entry| (entry.iteration, entry.max_residual, entry.rms_residual))
         .collect();
+    let normal_history: Vec<(usize, f64)> = report
+        .run
+        .history
+        .iter()
+        .filter_map(|entry| Some((entry.iteration, entry.normal_residual?)))
+        .filter(|(_, normal)| normal.is_finite())
+        .collect();
     let earlier: Vec<(usize, Vec<f64>)> = fit
         .sequence
         .iter()
@@ -91,6 +98,7 @@ pub(super) fn figure(job: &Job<'_>) -> String {
         residuals: &residuals,
         extent: report.run.extent,
         history: &history,
+        normal_history: &normal_history,
         sequence: &sequence,
     })
 }

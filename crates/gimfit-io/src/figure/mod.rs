@@ -29,6 +29,7 @@
 //!     residuals: &[0.0, 0.0, 0.0],
 //!     extent: 3.6,
 //!     history: &[(0, 0.0, 0.0)],
+//!     normal_history: &[],
 //!     sequence: &[],
 //! });
 //! let png = svg_to_png(&svg, 2.0)?;
@@ -105,6 +106,8 @@ pub struct CurveFigure<'a> {
     pub extent: f64,
     /// Iteration, largest residual and root mean square residual.
     pub history: &'a [(usize, f64, f64)],
+    /// Normal residual of least squares at each iteration; empty otherwise.
+    pub normal_history: &'a [(usize, f64)],
     /// Curves of earlier iterations, the oldest first.
     pub sequence: &'a [SequenceCurve<'a>],
 }

@@ -16,11 +16,18 @@ const MOST_MARKED: usize = 50;
 
 const MOST_POINTS: usize = 1500;
 
-/// Draws the panel of `history`, as in a [`super::CurveFigure`], into `area`.
+/// What the panel shows, as in a [`super::CurveFigure`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Histories<'a> {
+    pub(crate) residuals: &'a [(usize, f64, f64)],
+    pub(crate) normal: &'a [(usize, f64)],
+}
+
+/// Draws the panel into `area`.
 pub(crate) fn draw(
     svg: &mut Svg,
     area: Rect,
-    history: &[(usize, f64, f64)],
+    Histories { residuals: history, normal }: Histories<'_>,
     extent: f64,
     notes: &mut Notes,
 ) {
@@ -35,7 +42,8 @@ pub(crate) fn draw(
         Scale::new(iterations, area.x + 8.0, area.right() - 8.0)
     };
     let across = Axis::whole(&sx, Direction::Across, "iteration");
-    let values = history.iter().flat_map(|h| [h.1, h.2]);
+    let normal_values = normal.iter().map(|h| h.1);
+    let values = history.iter().flat_map(|h| [h.1, h.2]).chain(normal_values);
     let Some(log) = LogScale::around(values, area.bottom() - 5.0, area.y + 5.0) else {
         plot::draw_axes(svg, area, &across, &Axis::default());
         message(svg, area, "all residuals are 0");
@@ -49,7 +57,8 @@ pub(crate) fn draw(
     }
     let rms = Series::new(history.iter().map(|h| (h.0, h.2)), &sx, &log);
     let largest = Series::new(history.iter().map(|h| (h.0, h.1)), &sx, &log);
-    if rms.any_below || largest.any_below {
+    let normal_series = Series::new(normal.iter().copied(), &sx, &log);
+    if rms.any_below || largest.any_below || normal_series.any_below {
         notes.add(format!(
             "history below {} (0 included) drawn at the lower edge",
             log.bottom_label()
@@ -57,11 +66,15 @@ pub(crate) fn draw(
     }
     rms.draw(svg, style::RMS, true, history.len());
     largest.draw(svg, style::LARGEST, false, history.len());
+    normal_series.draw(svg, style::NORMAL, false, history.len());
     let entry = |sample, name: &str| Entry { sample, name: name.to_owned() };
-    let row = [
+    let mut row = vec![
         entry(Sample::Line(style::LARGEST.to_owned(), 1.6), "largest"),
         entry(Sample::Dashes(style::RMS.to_owned(), 1.6), "rms"),
     ];
+    if !normal.is_empty() {
+        row.push(entry(Sample::Line(style::NORMAL.to_owned(), 1.6), "normal"));
+    }
     legend::draw_right(svg, area, &row);
 }
 

@@ -19,6 +19,7 @@ pub(crate) const DATA_MANY: &str = "#a9b0b8";
 pub(crate) const ERROR: &str = "#7a4e9e";
 pub(crate) const LARGEST: &str = "#d55e00";
 pub(crate) const RMS: &str = "#0072b2";
+pub(crate) const NORMAL: &str = "#008a69";
 
 /// Ends of the ramp in which earlier iterations are drawn, pale to strong.
 const RAMP_PALE: [f64; 3] = [190.0, 226.0, 214.0];

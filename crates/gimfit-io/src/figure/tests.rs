@@ -63,6 +63,7 @@ impl Sample {
             residuals: &self.residuals,
             extent: 2.0,
             history: &self.history,
+            normal_history: &[],
             sequence: &[],
         }
     }

@@ -29,7 +29,8 @@ pub(super) fn surface_figure(figure: &SurfaceFigure<'_>) -> String {
     let entries = panel_surface::draw(&mut svg, layout.main, figure, &main, &mut notes);
     legend::draw(&mut svg, layout.main, &rows(entries));
     panel_map::draw(&mut svg, layout.error, figure, &mut notes);
-    panel_history::draw(&mut svg, layout.history, figure.history, figure.extent, &mut notes);
+    let histories = panel_history::Histories { residuals: figure.history, normal: &[] };
+    panel_history::draw(&mut svg, layout.history, histories, figure.extent, &mut notes);
     if let Some(step) = figure.stages {
         notes.add(format!(
             "history up to step {step} that of the columns as curves, then that of the rows of what they gave"

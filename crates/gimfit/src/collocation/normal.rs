@@ -140,13 +140,7 @@ impl LeastSquaresCollocation {
                 }
             }
             None => {
-                let rows = self.rows.rows();
-                for (j, &first) in rows.first.iter().enumerate() {
-                    let row = &rows.weights[j * rows.width..][..rows.width];
-                    for (k, value) in row.iter().enumerate() {
-                        self.sums[rows.column(first, k)] += weight(j) * value;
-                    }
-                }
+                normal_kernel::gather_sums(self.rows.rows(), &self.data_weights, &mut self.sums);
             }
         }
         for (stays, &sum) in self.stays.iter_mut().zip(&self.sums) {

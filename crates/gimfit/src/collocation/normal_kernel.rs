@@ -177,6 +177,23 @@ fn band_of<const W: usize>(
     });
 }
 
+/// Adds `A^T W 1` to `sums`.
+pub(super) fn gather_sums(rows: Rows<'_>, data_weights: &[f64], sums: &mut [f64]) {
+    let width = rows.width;
+    for_each_run(rows, |first, run| {
+        let mut totals = [0.0; MAX_DEGREE + 1];
+        let totals = &mut totals[..width];
+        for j in run {
+            let weight = data_weights.get(j).copied().unwrap_or(1.0);
+            let row = &rows.weights[j * width..][..width];
+            totals.iter_mut().zip(row).for_each(|(total, value)| *total += weight * value);
+        }
+        for (k, total) in totals.iter().enumerate() {
+            sums[rows.column(first, k)] += total;
+        }
+    });
+}
+
 /// Calls `each` for every run of rows that start at the same column.
 #[inline(always)]
 fn for_each_run(rows: Rows<'_>, mut each: impl FnMut(i32, std::ops::Range<usize>)) {

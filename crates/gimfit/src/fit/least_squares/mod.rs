@@ -7,7 +7,7 @@ mod place;
 pub use options::{LeastSquaresKnots, LeastSquaresMethod, LeastSquaresOptions, LeastSquaresWeight};
 
 use super::CurveFit;
-use super::curve::{parameterization_name, spacing_ratio, unscale};
+use super::curve::{parameterization_name, unscale};
 use super::prepare::{check_extent, open_up};
 use super::solve::{Size, Task, norm, solve_from, unscaled};
 use crate::Error;
@@ -88,28 +88,94 @@ pub fn fit_least_squares_observed<'a>(
     }
     let data = size.scale.apply(points.coordinates());
     let view = PointsView::new(dimension, &data)?;
-    let mut sites = Sites::new(view, options.closed, &parameterization)?;
+    let sites = Sites::new(view, options.closed, &parameterization)?;
     let knots = sites.knots(options)?;
-    let mut start = start(options, &sites, &size, &data, dimension, &knots)?;
-    let spacing_ratio = spacing_ratio(sites.distinct()?.values(), sites.period);
-    sites.bring_inside(&knots);
     let placed = matches!(options.knots, LeastSquaresKnots::ControlPoints(_));
     if placed {
         choices.push("knots: about as many data points in every span".into());
     }
+    let problem = Problem { given: all.len(), data: view, size, sites, knots, placed, choices };
+    let mut fit = fit_problem(problem, options, observer)?;
+    fit.report.parameterization = parameterization_name(&parameterization);
+    fit.kept_points = (count < all.len()).then(|| (0..count).collect());
+    Ok(fit)
+}
 
+/// As [`fit_least_squares`] at parameters and over knots that are already known; those of a closed
+/// curve are periodic. Parameters lie in the domain, in any order. Of the options, those on weights,
+/// ends, start, method and stopping count.
+///
+/// # Errors
+/// As [`fit_least_squares`].
+pub fn least_squares<'a>(
+    points: impl Into<PointsView<'a>>,
+    parameters: Vec<f64>,
+    knots: KnotVector,
+    options: &LeastSquaresOptions,
+) -> Result<CurveFit, Error> {
+    let points = points.into();
+    if points.len() != parameters.len() {
+        return Err(Error::WrongCount {
+            what: "parameters",
+            given: parameters.len(),
+            expected: points.len(),
+            why: "one per point",
+        });
+    }
+    if points.is_empty() {
+        return Err(Error::NoPoints { needed: 1 });
+    }
+    let size = Size::of(Extent::of(points)?);
+    check_extent(&size.extent)?;
+    let data = size.scale.apply(points.coordinates());
+    let problem = Problem {
+        given: points.len(),
+        data: PointsView::new(points.dimension(), &data)?,
+        size,
+        sites: Sites::over(parameters, &knots)?,
+        knots,
+        placed: false,
+        choices: Vec::new(),
+    };
+    fit_problem(problem, options, &mut NoObserver)
+}
+
+/// Everything a run needs; the data are scaled.
+struct Problem<'a> {
+    /// Points given, a repeated closing one included.
+    given: usize,
+    data: PointsView<'a>,
+    size: Size,
+    sites: Sites,
+    knots: KnotVector,
+    /// Whether the knots were placed by the parameters.
+    placed: bool,
+    choices: Vec<String>,
+}
+
+fn fit_problem(
+    problem: Problem<'_>,
+    options: &LeastSquaresOptions,
+    observer: &mut dyn Observer,
+) -> Result<CurveFit, Error> {
+    let Problem { given, data: view, size, mut sites, knots, placed, mut choices } = problem;
+    let (data, count, dimension) = (view.coordinates(), view.len(), view.dimension());
+    let mut start = start(options, &sites, &size, data, dimension, &knots, placed)?;
+    let columns = start.len() / dimension;
+    let spacing_ratio = sites.spacing_ratio();
+    let ends = sites.ends();
+    sites.bring_inside(&knots);
     let mut operator = LeastSquaresCollocation::new(&sites.values, &knots)?;
     if let Some(weights) = &options.data_weights {
-        if weights.len() != all.len() {
-            return Err(wrong_weights(weights.len(), all.len()));
+        if weights.len() != given {
+            return Err(wrong_weights(weights.len(), given));
         }
         operator = operator.with_data_weights(&weights[..count])?;
     }
-    let columns = start.len() / dimension;
     if options.hold_ends {
         check_ends(&knots)?;
         operator = operator.with_held(&[0, columns - 1]);
-        let ends = sites.ends().map(|j| &data[j * dimension..][..dimension]);
+        let ends = ends.map(|j| &data[j * dimension..][..dimension]);
         start[..dimension].copy_from_slice(ends[0]);
         start[(columns - 1) * dimension..].copy_from_slice(ends[1]);
     }
@@ -127,7 +193,7 @@ pub fn fit_least_squares_observed<'a>(
     let setting = Setting {
         operator: &operator,
         normal: &normal,
-        data: &data,
+        data,
         dimension,
         weight: options.weight,
         seed: options.seed,
@@ -137,14 +203,15 @@ pub fn fit_least_squares_observed<'a>(
     let stopping = size.stopping(options.residual, options.iterations, &mut choices)?;
     choices.append(&mut chosen.choices);
     chosen.choices = choices;
+    let degree = knots.degree();
     let layout = match knots.boundary() {
         Boundary::Open => ControlLayout::Free,
-        Boundary::Periodic => ControlLayout::Periodic { shift: 0, degree: options.degree },
+        Boundary::Periodic => ControlLayout::Periodic { shift: 0, degree },
     };
     let expand = |control| layout.expand(control, dimension);
     let task = Task {
         operator: &operator,
-        data: &data,
+        data,
         dimension,
         size: &size,
         stopping,
@@ -157,12 +224,13 @@ pub fn fit_least_squares_observed<'a>(
     }
 
     let mut vectors = memory::zeros(data.len());
-    let norms = operator.at_data(&data, &solved.control, dimension, &mut vectors);
+    let norms = operator.at_data(data, &solved.control, dimension, &mut vectors);
     let curve = Curve::new(knots, Points::new(dimension, expand(solved.control))?)?;
     let (max_deviation, max_deviation_index) = if norms.max <= size.rounding_level() {
         (norms.max, norms.max_index)
     } else {
-        let mut residuals: Vec<f64> = vectors.chunks_exact(dimension).map(norm).collect();
+        let mut residuals = memory::with_capacity(count);
+        residuals.extend(vectors.chunks_exact(dimension).map(norm));
         if options.data_weights.is_some() {
             // Points that do not count are not looked at.
             (0..count).filter(|&j| operator.data_weight(j) == 0.0).for_each(|j| residuals[j] = 0.0);
@@ -173,10 +241,10 @@ pub fn fit_least_squares_observed<'a>(
     let report = CurveReport {
         points: count,
         control_points: curve.control_points().len(),
-        degree: options.degree,
+        degree,
         dimension,
         closed: curve.is_periodic(),
-        parameterization: parameterization_name(&parameterization),
+        parameterization: "given",
         knot_placement: if placed { "least-squares" } else { "given" },
         spacing_ratio,
         shape: None,
@@ -189,7 +257,7 @@ pub fn fit_least_squares_observed<'a>(
     Ok(CurveFit {
         curve,
         parameters: sites.values,
-        kept_points: (count < all.len()).then(|| (0..count).collect()),
+        kept_points: None,
         difference_vectors: unscaled(Points::new(dimension, vectors)?, size.scale)?,
         report,
         sequence: solved.sequence,
@@ -224,8 +292,8 @@ fn start(
     data: &[f64],
     dimension: usize,
     knots: &KnotVector,
+    placed: bool,
 ) -> Result<Vec<f64>, Error> {
-    let placed = matches!(options.knots, LeastSquaresKnots::ControlPoints(_));
     let own = sites.start(data, dimension, knots, placed);
     let Some(given) = &options.start else { return Ok(own) };
     let view = PointsView::from(given);

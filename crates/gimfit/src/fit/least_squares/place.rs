@@ -26,7 +26,7 @@ impl Sites {
         parameterization: &Parameterization,
     ) -> Result<Self, Error> {
         match parameterization {
-            Parameterization::Given(values) => Self::given(points.len(), closed, values),
+            Parameterization::Given(values) => Self::given(points.len(), closed, values.clone()),
             Parameterization::ChordRatio => Err(Error::Incompatible {
                 what: "the chord-ratio parameterization",
                 with: "least squares",
@@ -59,7 +59,8 @@ impl Sites {
         }
     }
 
-    fn given(count: usize, closed: bool, values: &[f64]) -> Result<Self, Error> {
+    /// Takes given parameters; those of a closed curve are one more than the points.
+    fn given(count: usize, closed: bool, mut values: Vec<f64>) -> Result<Self, Error> {
         let expected = count + usize::from(closed);
         if values.len() != expected {
             return Err(Error::WrongCount {
@@ -73,32 +74,61 @@ impl Sites {
                 },
             });
         }
-        if let Some(j) = values.iter().position(|t| !t.is_finite()) {
-            return Err(Error::OutOfRange {
-                what: format!("parameter {j}"),
-                value: values[j],
-                rule: "parameters must be finite",
-            });
-        }
-        let (own, closing) = values.split_at(count);
-        let period = closing.first().map(|last| last - own[0]);
-        if let (Some(period), Some(&last)) = (period, closing.first()) {
-            if let Some(j) = own.iter().position(|t| !(own[0] <= *t && *t < last)) {
+        check_finite(&values)?;
+        let mut period = None;
+        if closed {
+            let last = values.pop().unwrap_or_default();
+            let first = values.first().copied().unwrap_or_default();
+            if let Some(j) = values.iter().position(|t| !(first <= *t && *t < last)) {
                 return Err(Error::OutOfRange {
                     what: format!("parameter {j}"),
-                    value: own[j],
+                    value: values[j],
                     rule: "on a closed curve it must lie between the first one and the closing one",
                 });
             }
-            debug_assert!(period > 0.0);
+            period = Some(last - first);
         }
-        let ascends = own.windows(2).all(|t| t[0] <= t[1]);
+        Ok(Self::in_order(values, period))
+    }
+
+    /// Takes parameters in the domain of knots.
+    pub(super) fn over(values: Vec<f64>, knots: &KnotVector) -> Result<Self, Error> {
+        check_finite(&values)?;
+        let (start, end) = knots.domain();
+        let period = (knots.boundary() == Boundary::Periodic).then_some(end - start);
+        Ok(Self::in_order(values, period))
+    }
+
+    fn in_order(values: Vec<f64>, period: Option<f64>) -> Self {
+        let ascends = values.windows(2).all(|t| t[0] <= t[1]);
         let order = (!ascends).then(|| {
-            let mut order: Vec<u32> = (0..count as u32).collect();
-            order.sort_by(|&a, &b| own[a as usize].total_cmp(&own[b as usize]));
+            let mut order: Vec<u32> = (0..values.len() as u32).collect();
+            order.sort_by(|&a, &b| values[a as usize].total_cmp(&values[b as usize]));
             order
         });
-        Ok(Self { values: own.to_vec(), period, order })
+        Self { values, period, order }
+    }
+
+    /// Longest step between parameters that differ over the shortest.
+    pub(super) fn spacing_ratio(&self) -> f64 {
+        let (mut shortest, mut longest) = (f64::INFINITY, 0.0);
+        let mut note = |step: f64| {
+            if step > 0.0 {
+                shortest = if step < shortest { step } else { shortest };
+                longest = if step > longest { step } else { longest };
+            }
+        };
+        match &self.order {
+            None => self.values.windows(2).for_each(|t| note(t[1] - t[0])),
+            Some(order) => order
+                .windows(2)
+                .for_each(|j| note(self.values[j[1] as usize] - self.values[j[0] as usize])),
+        }
+        if let Some(period) = self.period {
+            let [first, last] = self.ends().map(|j| self.values[j]);
+            note(first + period - last);
+        }
+        if longest > 0.0 { longest / shortest } else { 1.0 }
     }
 
     /// The data point that comes at a place by ascending parameter.
@@ -203,6 +233,17 @@ impl Sites {
 impl From<Parameters> for Sites {
     fn from(parameters: Parameters) -> Self {
         Self { period: parameters.period(), values: parameters.into_values(), order: None }
+    }
+}
+
+fn check_finite(values: &[f64]) -> Result<(), Error> {
+    match values.iter().position(|t| !t.is_finite()) {
+        None => Ok(()),
+        Some(j) => Err(Error::OutOfRange {
+            what: format!("parameter {j}"),
+            value: values[j],
+            rule: "parameters must be finite",
+        }),
     }
 }
 
