@@ -60,6 +60,27 @@ fn knots_weights_ends_and_kept_fits_are_taken() {
 }
 
 #[test]
+fn a_run_goes_on_from_the_control_points_of_another() {
+    let place = place();
+    for closed in ["", "--closed"] {
+        let line =
+            format!("curve wave.csv --method lspia --control-points 12 --residual 0 {closed}");
+        place.run(&format!("{line} --iterations 4 -o first.json")).code(0);
+        place.run(&format!("{line} --iterations 5 --start first.json -o second.json")).code(0);
+        place.run(&format!("{line} --iterations 9 -o whole.json")).code(0);
+        let control =
+            |name: &str| common::points(&place.document(name)["geometry"]["control_points"]);
+        let gap = common::largest_distance(&control("second.json"), &control("whole.json"));
+        assert!(gap < 1e-13, "{gap:e}");
+    }
+    let other = "curve wave.csv --method lspia --control-points 9 --start first.json";
+    place.run(other).code(2).says(&["control points of the start", "9 expected"]);
+    place.run("curve wave.csv --start first.json").code(2).says(&["--start", "least-squares"]);
+    place.write("no.json", "{}");
+    place.run("curve wave.csv --method pcg --control-points 9 --start no.json").code(2);
+}
+
+#[test]
 fn a_run_that_ends_early_says_how_fast_it_went() {
     let place = place();
     let line =

@@ -64,11 +64,12 @@ pub use fit::{
     ApproximationOptions, BlendingCurveFit, BlendingOptions, BlendingSurfaceFit,
     BlendingSurfaceOptions, Convexity, Corners, CurveDiagnosis, CurveFit, CurveOptions, EditReport,
     EditableCurve, EditableSurface, Goal, IterationWeight, KeptFit, LeastSquaresKnots,
-    LeastSquaresMethod, LeastSquaresOptions, LeastSquaresWeight, Method, SurfaceEditReport,
-    SurfaceFit, SurfaceOptions, SurfaceWeight, TriangleFit, TriangleOptions, approximate_curve,
-    approximate_curve_observed, diagnose_blending_curve, diagnose_curve, fit_blending_curve,
-    fit_blending_surface, fit_curve, fit_curve_observed, fit_least_squares,
-    fit_least_squares_observed, fit_surface, fit_surface_observed, fit_triangular_patch,
+    LeastSquaresMethod, LeastSquaresOptions, LeastSquaresSurfaceOptions, LeastSquaresWeight,
+    Method, SurfaceEditReport, SurfaceFit, SurfaceOptions, SurfaceWeight, TriangleFit,
+    TriangleOptions, approximate_curve, approximate_curve_observed, diagnose_blending_curve,
+    diagnose_curve, fit_blending_curve, fit_blending_surface, fit_curve, fit_curve_observed,
+    fit_least_squares, fit_least_squares_observed, fit_least_squares_surface, fit_surface,
+    fit_surface_observed, fit_triangular_patch,
 };
 pub use fit::{SurfaceDiagnosis, diagnose_surface};
 pub use geometry::{BlendingCurve, BlendingSurface, Curve, Surface, TriangularPatch};

@@ -8,8 +8,11 @@ use crate::method::check_owners;
 use crate::values;
 use anyhow::{anyhow, bail, ensure};
 use clap::Args;
-use gimfit::{LeastSquaresKnots, LeastSquaresMethod, LeastSquaresOptions, LeastSquaresWeight};
-use std::path::PathBuf;
+use gimfit::{
+    LeastSquaresKnots, LeastSquaresMethod, LeastSquaresOptions, LeastSquaresWeight, Points,
+};
+use gimfit_io::document::{Geometry, read_document};
+use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub(crate) struct LeastSquaresArguments {
@@ -21,6 +24,11 @@ pub(crate) struct LeastSquaresArguments {
     /// With a method of least squares: start an open curve at the first point and end it at the last
     #[arg(long, help_heading = "Least squares")]
     pub(crate) hold_ends: bool,
+
+    /// With a method of least squares: document of a fitted curve (.json) whose control points the
+    /// iteration starts from [default: chosen data points]
+    #[arg(long, value_name = "FIT", help_heading = "Least squares")]
+    pub(crate) start: Option<PathBuf>,
 
     /// Seed of random-columns and random-rows; the same seed draws the same [default: 0]
     #[arg(long, value_name = "N", help_heading = "Least squares")]
@@ -59,6 +67,7 @@ pub(super) fn options(
         let foreign = [
             ("--data-weights", own.data_weights.is_some()),
             ("--hold-ends", own.hold_ends),
+            ("--start", own.start.is_some()),
             ("--seed", own.seed.is_some()),
         ];
         if let Some((name, _)) = foreign.iter().find(|(_, given)| *given) {
@@ -84,6 +93,7 @@ pub(super) fn options(
         parameterization: shape.options.parameterization.clone(),
         data_weights,
         hold_ends: own.hold_ends,
+        start: own.start.as_deref().map(start).transpose()?,
         method,
         weight: weight(&iteration.weight)?,
         seed: own.seed.unwrap_or(0),
@@ -92,6 +102,18 @@ pub(super) fn options(
         keep: iteration.keep.clone(),
         ..LeastSquaresOptions::new(knots(arguments)?)
     }))
+}
+
+/// The control points of a fit, without those that a closed curve repeats.
+fn start(path: &Path) -> anyhow::Result<Points> {
+    let document = read_document(path)?;
+    let Some(Geometry::Curve(geometry)) = &document.geometry else {
+        bail!("--start {}: the document holds no curve", path.display());
+    };
+    let curve = geometry.curve()?;
+    let length = curve.free_control_points() * curve.dimension();
+    let control = curve.control_points().coordinates();
+    Ok(Points::new(curve.dimension(), control[..length].to_vec())?)
 }
 
 /// Points that were sorted take their weights along.

@@ -31,6 +31,8 @@ pub struct LeastSquaresCollocation {
     sums: Vec<f64>,
     /// Whether a control point stays: it is held, or no data point meets it.
     stays: Vec<bool>,
+    /// Points that a row of the arrays holds.
+    side_by_side: usize,
 }
 
 impl LeastSquaresCollocation {
@@ -63,6 +65,7 @@ impl LeastSquaresCollocation {
             groups: None,
             sums: vec![0.0; columns],
             stays: vec![false; columns],
+            side_by_side: 1,
         };
         operator.weigh();
         Ok(operator)
@@ -114,6 +117,14 @@ impl LeastSquaresCollocation {
         self
     }
 
+    /// Takes a row of the arrays for so many points side by side, lines of a grid that are fitted at
+    /// once: the normal residual is then that of a single one.
+    #[must_use]
+    pub fn with_points_side_by_side(mut self, count: usize) -> Self {
+        self.side_by_side = count.max(1);
+        self
+    }
+
     /// Gathers means over groups in place of `A^T`: a data point belongs to the control point whose
     /// function is largest there (Lin and Zhang 2011).
     #[must_use]
@@ -127,6 +138,11 @@ impl LeastSquaresCollocation {
         self.groups = Some(groups.collect());
         self.weigh();
         self
+    }
+
+    /// Whether means over groups are gathered.
+    pub(crate) fn is_grouped(&self) -> bool {
+        self.groups.is_some()
     }
 
     /// Sums up what each control point is met by.
@@ -302,6 +318,7 @@ impl CollocationOperator for LeastSquaresCollocation {
                 (squares.largest, squares.index, squares.sum, squares.count)
             }
         };
+        let own = (dimension / self.side_by_side).max(1);
         let mut farthest = 0.0_f64;
         let vectors = result.chunks_exact_mut(dimension);
         for (vector, (&stays, &weight)) in vectors.zip(self.stays.iter().zip(&self.sums)) {
@@ -310,8 +327,10 @@ impl CollocationOperator for LeastSquaresCollocation {
                 continue;
             }
             let share = if self.groups.is_some() { 1.0 } else { weight.recip() };
-            let square: f64 = vector.iter().map(|x| (share * x) * (share * x)).sum();
-            farthest = farthest.max(square);
+            for point in vector.chunks(own) {
+                let square: f64 = point.iter().map(|x| (share * x) * (share * x)).sum();
+                farthest = farthest.max(square);
+            }
         }
         let normal = if sum.is_finite() { farthest.sqrt() } else { f64::NAN };
         ResidualNorms { normal: Some(normal), ..norms(largest, index, sum, count) }

@@ -38,8 +38,9 @@ pub use diagnose_surface::{SurfaceDiagnosis, diagnose_surface};
 pub use edit::{EditReport, EditableCurve, EditableSurface, SurfaceEditReport};
 pub use keep::KeptFit;
 pub use least_squares::{
-    LeastSquaresKnots, LeastSquaresMethod, LeastSquaresOptions, LeastSquaresWeight,
-    fit_least_squares, fit_least_squares_observed, least_squares,
+    LeastSquaresKnots, LeastSquaresMethod, LeastSquaresOptions, LeastSquaresSurfaceOptions,
+    LeastSquaresWeight, fit_least_squares, fit_least_squares_observed, fit_least_squares_surface,
+    least_squares,
 };
 pub use options::{
     BlendingOptions, BlendingSurfaceOptions, Convexity, CurveOptions, IterationWeight, Method,

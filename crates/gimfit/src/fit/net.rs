@@ -176,7 +176,7 @@ fn per_direction(
     let (first, second_run) = (first.run, second.run);
     let iterations = first.iterations + second_run.iterations;
     let endings = [first.termination, second_run.termination];
-    let termination = overall(endings, norms.max, setting.stopping);
+    let termination = judged(endings, norms.max, setting.stopping);
     let undo = |x: f64| setting.size.scale.undo(x);
     let entry = |iteration, norms: ResidualNorms| HistoryEntry {
         iteration,
@@ -228,10 +228,15 @@ fn per_direction(
 }
 
 /// How two runs ended, seen as one.
-fn overall(each: [Termination; 2], residual: f64, stopping: Stopping) -> Termination {
+fn judged(each: [Termination; 2], residual: f64, stopping: Stopping) -> Termination {
     if stopping.residual > 0.0 && residual <= stopping.residual {
         return Termination::Residual;
     }
+    overall(each)
+}
+
+/// The worse of two endings.
+pub(super) fn overall(each: [Termination; 2]) -> Termination {
     let worse = [
         Termination::Diverged,
         Termination::Cancelled,
@@ -249,7 +254,7 @@ mod tests {
     fn the_worse_ending_counts() {
         let stopping = Stopping { residual: 1e-9, max_iterations: 9, accept_rounding: 0.0 };
         let both = [Termination::Residual, Termination::Iterations];
-        assert_eq!(overall(both, 1.0, stopping), Termination::Iterations);
-        assert_eq!(overall(both, 1e-10, stopping), Termination::Residual);
+        assert_eq!(judged(both, 1.0, stopping), Termination::Iterations);
+        assert_eq!(judged(both, 1e-10, stopping), Termination::Residual);
     }
 }

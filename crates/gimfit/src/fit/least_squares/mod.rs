@@ -3,13 +3,16 @@
 mod method;
 mod options;
 mod place;
+mod surface;
 
 pub use options::{LeastSquaresKnots, LeastSquaresMethod, LeastSquaresOptions, LeastSquaresWeight};
 
-use super::CurveFit;
+pub use surface::{LeastSquaresSurfaceOptions, fit_least_squares_surface};
+
 use super::curve::{parameterization_name, unscale};
 use super::prepare::{check_extent, open_up};
-use super::solve::{Size, Task, norm, solve_from, unscaled};
+use super::solve::{Size, Solved, Task, norm, solve_from, unscaled};
+use super::{CurveFit, KeptFit};
 use crate::Error;
 use crate::collocation::{ControlLayout, LeastSquaresCollocation};
 use crate::geometry::Curve;
@@ -19,7 +22,7 @@ use crate::memory;
 use crate::parameters::Parameterization;
 use crate::points::{Extent, Points, PointsView};
 use crate::projection::largest_deviation;
-use crate::report::CurveReport;
+use crate::report::{CurveReport, RunReport};
 use method::{Setting, choose};
 use place::Sites;
 
@@ -94,7 +97,16 @@ pub fn fit_least_squares_observed<'a>(
     if placed {
         choices.push("knots: about as many data points in every span".into());
     }
-    let problem = Problem { given: all.len(), data: view, size, sites, knots, placed, choices };
+    let problem = Problem {
+        given: all.len(),
+        data: view,
+        size,
+        sites,
+        knots,
+        placed,
+        side_by_side: 1,
+        choices,
+    };
     let mut fit = fit_problem(problem, options, observer)?;
     fit.report.parameterization = parameterization_name(&parameterization);
     fit.kept_points = (count < all.len()).then(|| (0..count).collect());
@@ -135,6 +147,7 @@ pub fn least_squares<'a>(
         sites: Sites::over(parameters, &knots)?,
         knots,
         placed: false,
+        side_by_side: 1,
         choices: Vec::new(),
     };
     fit_problem(problem, options, &mut NoObserver)
@@ -150,6 +163,8 @@ struct Problem<'a> {
     knots: KnotVector,
     /// Whether the knots were placed by the parameters.
     placed: bool,
+    /// Points that a row of the data holds.
+    side_by_side: usize,
     choices: Vec<String>,
 }
 
@@ -158,14 +173,81 @@ fn fit_problem(
     options: &LeastSquaresOptions,
     observer: &mut dyn Observer,
 ) -> Result<CurveFit, Error> {
-    let Problem { given, data: view, size, mut sites, knots, placed, mut choices } = problem;
+    let (view, size, placed) = (problem.data, problem.size.clone(), problem.placed);
+    let (data, count, dimension) = (view.coordinates(), view.len(), view.dimension());
+    let knots = problem.knots.clone();
+    let spacing_ratio = problem.sites.spacing_ratio();
+    let outcome = solve_problem(problem, options, observer)?;
+    let DirectionOutcome { operator, layout, control, parameters, run, sequence } = outcome;
+    let mut vectors = memory::zeros(data.len());
+    let norms = operator.at_data(data, &control, dimension, &mut vectors);
+    let degree = knots.degree();
+    let curve = Curve::new(knots, Points::new(dimension, layout.expand(control, dimension))?)?;
+    let (max_deviation, max_deviation_index) = if norms.max <= size.rounding_level() {
+        (norms.max, norms.max_index)
+    } else {
+        let mut residuals = memory::with_capacity(count);
+        residuals.extend(vectors.chunks_exact(dimension).map(norm));
+        if options.data_weights.is_some() {
+            // Points that do not count are not looked at.
+            (0..count).filter(|&j| operator.data_weight(j) == 0.0).for_each(|j| residuals[j] = 0.0);
+        }
+        largest_deviation(&curve, view, &parameters, &residuals)?
+    };
+    let curve = unscale(curve, size.scale)?;
+    let report = CurveReport {
+        points: count,
+        control_points: curve.control_points().len(),
+        degree,
+        dimension,
+        closed: curve.is_periodic(),
+        parameterization: "given",
+        knot_placement: if placed { "least-squares" } else { "given" },
+        spacing_ratio,
+        shape: None,
+        run,
+        approximation: None,
+        max_residual_index: norms.max_index,
+        max_deviation: size.scale.undo(max_deviation),
+        max_deviation_index,
+    };
+    Ok(CurveFit {
+        curve,
+        parameters,
+        kept_points: None,
+        difference_vectors: unscaled(Points::new(dimension, vectors)?, size.scale)?,
+        report,
+        sequence,
+    })
+}
+
+/// A run that has ended. Control points that move are scaled still; the report is in the unit of the
+/// data.
+struct DirectionOutcome {
+    operator: LeastSquaresCollocation,
+    layout: ControlLayout,
+    control: Vec<f64>,
+    /// Inside the domain.
+    parameters: Vec<f64>,
+    run: RunReport,
+    sequence: Vec<KeptFit>,
+}
+
+/// Builds the operator and runs the method.
+fn solve_problem(
+    problem: Problem<'_>,
+    options: &LeastSquaresOptions,
+    observer: &mut dyn Observer,
+) -> Result<DirectionOutcome, Error> {
+    let Problem { given, data: view, size, mut sites, knots, placed, side_by_side, mut choices } =
+        problem;
     let (data, count, dimension) = (view.coordinates(), view.len(), view.dimension());
     let mut start = start(options, &sites, &size, data, dimension, &knots, placed)?;
     let columns = start.len() / dimension;
-    let spacing_ratio = sites.spacing_ratio();
     let ends = sites.ends();
     sites.bring_inside(&knots);
-    let mut operator = LeastSquaresCollocation::new(&sites.values, &knots)?;
+    let mut operator =
+        LeastSquaresCollocation::new(&sites.values, &knots)?.with_points_side_by_side(side_by_side);
     if let Some(weights) = &options.data_weights {
         if weights.len() != given {
             return Err(wrong_weights(weights.len(), given));
@@ -203,10 +285,9 @@ fn fit_problem(
     let stopping = size.stopping(options.residual, options.iterations, &mut choices)?;
     choices.append(&mut chosen.choices);
     chosen.choices = choices;
-    let degree = knots.degree();
     let layout = match knots.boundary() {
         Boundary::Open => ControlLayout::Free,
-        Boundary::Periodic => ControlLayout::Periodic { shift: 0, degree },
+        Boundary::Periodic => ControlLayout::Periodic { shift: 0, degree: knots.degree() },
     };
     let expand = |control| layout.expand(control, dimension);
     let task = Task {
@@ -218,50 +299,13 @@ fn fit_problem(
         keep: &options.keep,
         expand: &expand,
     };
-    let mut solved = solve_from(&task, &start, &mut chosen, observer)?;
-    if let Some(account) = &mut solved.run.least_squares {
+    let Solved { control, mut run, sequence, .. } =
+        solve_from(&task, &start, &mut chosen, observer)?;
+    drop(chosen);
+    if let Some(account) = &mut run.least_squares {
         account.unmet_control_points = unmet;
     }
-
-    let mut vectors = memory::zeros(data.len());
-    let norms = operator.at_data(data, &solved.control, dimension, &mut vectors);
-    let curve = Curve::new(knots, Points::new(dimension, expand(solved.control))?)?;
-    let (max_deviation, max_deviation_index) = if norms.max <= size.rounding_level() {
-        (norms.max, norms.max_index)
-    } else {
-        let mut residuals = memory::with_capacity(count);
-        residuals.extend(vectors.chunks_exact(dimension).map(norm));
-        if options.data_weights.is_some() {
-            // Points that do not count are not looked at.
-            (0..count).filter(|&j| operator.data_weight(j) == 0.0).for_each(|j| residuals[j] = 0.0);
-        }
-        largest_deviation(&curve, view, &sites.values, &residuals)?
-    };
-    let curve = unscale(curve, size.scale)?;
-    let report = CurveReport {
-        points: count,
-        control_points: curve.control_points().len(),
-        degree,
-        dimension,
-        closed: curve.is_periodic(),
-        parameterization: "given",
-        knot_placement: if placed { "least-squares" } else { "given" },
-        spacing_ratio,
-        shape: None,
-        run: solved.run,
-        approximation: None,
-        max_residual_index: norms.max_index,
-        max_deviation: size.scale.undo(max_deviation),
-        max_deviation_index,
-    };
-    Ok(CurveFit {
-        curve,
-        parameters: sites.values,
-        kept_points: None,
-        difference_vectors: unscaled(Points::new(dimension, vectors)?, size.scale)?,
-        report,
-        sequence: solved.sequence,
-    })
+    Ok(DirectionOutcome { operator, layout, control, parameters: sites.values, run, sequence })
 }
 
 /// The parameterization asked for, or the default.
