@@ -259,6 +259,17 @@ pub(crate) struct IterationArguments {
     #[arg(long, value_enum, value_name = "START", help_heading = "Iteration")]
     pub(crate) foot_points: Option<FootPointStart>,
 
+    /// Smallest eigenvalue of the collocation matrix, between 0 and 1, with which the geometric method
+    /// goes on moving foot points [default: 1e-3, or a tenth of that at the parameters assigned]
+    #[arg(
+        long,
+        value_name = "ALPHA",
+        value_parser = values::number,
+        allow_negative_numbers = true,
+        help_heading = "Iteration"
+    )]
+    pub(crate) least_eigenvalue: Option<f64>,
+
     /// Points whose control points move, counted from 1; the others stay where they start. Of a curve
     /// such as 10-20,35; of a grid rows and columns in turns, such as 3-10,5-20 for a window, or
     /// 3-10,5-20,7,8 for the same and one point

@@ -2,6 +2,7 @@
 
 use crate::arguments::BasisChoice;
 use anyhow::{bail, ensure};
+use gimfit::Method;
 use gimfit::basis::{Bernstein, BlendingBasis, Dp, SaidBall, WangBall};
 use gimfit::knots::MAX_DEGREE;
 use std::sync::Arc;
@@ -41,6 +42,16 @@ pub(crate) fn only_b_splines(option: &str, given: bool, why: &str) -> anyhow::Re
     if given {
         bail!("{option} belongs to --basis b-spline: {why}");
     }
+    Ok(())
+}
+
+/// Refuses foot points on bases other than B-splines; a Bezier curve is one of them.
+pub(crate) fn ensure_no_foot_points(method: Method) -> anyhow::Result<()> {
+    ensure!(
+        !matches!(method, Method::Geometric { .. }),
+        "--method geometric moves foot points on B-splines, those of one piece among them: in place of \
+         --basis bernstein use --knots bezier"
+    );
     Ok(())
 }
 

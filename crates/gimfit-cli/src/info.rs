@@ -7,8 +7,8 @@ use anyhow::anyhow;
 use gimfit::PointsView;
 use gimfit::points::Extent;
 use gimfit_io::document::{
-    AnyDocument, Document, Geometry, SurfaceDocument, SurfaceKind, TriangleDocument, TriangleKind,
-    is_document, parse_any_document,
+    AnyDocument, Document, Geometry, RunData, SurfaceDocument, SurfaceKind, TriangleDocument,
+    TriangleKind, is_document, parse_any_document,
 };
 use gimfit_io::grids::{GridOptions, PointGrid, read_grid_from, says_grid};
 use gimfit_io::points::{PointTable, input_name, read_input, read_points_from};
@@ -132,6 +132,19 @@ fn add_spacing(facts: &mut Facts, names: [&'static str; 2], steps: impl Iterator
     }
 }
 
+/// The residuals of a run; of local PIA, which counts some points only, those of the others beside.
+fn add_residuals(facts: &mut Facts, run: &RunData) {
+    if let Some(local) = &run.local {
+        facts.add("points_iterated", local.points);
+    }
+    facts.add("largest_residual", run.max_residual);
+    facts.add("rms_residual", run.rms_residual);
+    if let Some(local) = &run.local {
+        facts.add("residuals_are", "of the points iterated; deviations of all points");
+        facts.add("outside_residual", local.outside_max_residual);
+    }
+}
+
 /// Names and values, shown as lines or as JSON.
 struct Facts(Vec<(&'static str, serde_json::Value)>);
 
@@ -244,8 +257,7 @@ fn of_surface(document: &SurfaceDocument, name: String) -> Facts {
         facts.add("knot_placement", report.knot_placements.to_vec());
         facts.add("iterations", report.run.iterations);
         facts.add("ended_by", report.run.termination.clone());
-        facts.add("largest_residual", report.run.max_residual);
-        facts.add("rms_residual", report.run.rms_residual);
+        add_residuals(&mut facts, &report.run);
         facts.add("largest_deviation", report.max_deviation);
         facts.add("extent", report.run.extent);
     }
@@ -275,8 +287,7 @@ fn of_triangle(document: &TriangleDocument, name: String) -> Facts {
         facts.add("method", report.run.method.clone());
         facts.add("iterations", report.run.iterations);
         facts.add("ended_by", report.run.termination.clone());
-        facts.add("largest_residual", report.run.max_residual);
-        facts.add("rms_residual", report.run.rms_residual);
+        add_residuals(&mut facts, &report.run);
         facts.add("largest_deviation", report.max_deviation);
         facts.add("extent", report.run.extent);
     }
@@ -316,8 +327,7 @@ fn of_document(document: &Document, name: String) -> Facts {
         facts.add("knot_placement", report.knot_placement.clone());
         facts.add("iterations", report.run.iterations);
         facts.add("ended_by", report.run.termination.clone());
-        facts.add("largest_residual", report.run.max_residual);
-        facts.add("rms_residual", report.run.rms_residual);
+        add_residuals(&mut facts, &report.run);
         facts.add("largest_deviation", report.max_deviation);
         facts.add("extent", report.run.extent);
     }

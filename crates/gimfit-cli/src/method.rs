@@ -61,6 +61,15 @@ pub(crate) fn check_owners(arguments: &IterationArguments) -> anyhow::Result<()>
         foot_points.is_none() || choice == MethodChoice::Geometric,
         "--foot-points belongs to --method geometric"
     );
+    let alpha = arguments.least_eigenvalue;
+    ensure!(
+        alpha.is_none() || choice == MethodChoice::Geometric,
+        "--least-eigenvalue belongs to --method geometric"
+    );
+    ensure!(
+        alpha.is_none_or(|alpha| alpha > 0.0 && alpha < 1.0),
+        "--least-eigenvalue must lie between 0 and 1, as the eigenvalues do"
+    );
     ensure!(
         memory.is_none() || choice == MethodChoice::Anderson,
         "--memory belongs to --method anderson"

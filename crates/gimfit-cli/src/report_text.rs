@@ -71,7 +71,7 @@ impl Lines {
             "deviation",
             &format!("largest {:.3e} at {}", account.max_deviation, account.max_deviation_place),
         );
-        if let (Some(local), Some(place)) = (run.local, &account.outside_place) {
+        if let (Some(local), Some(place)) = (&run.local, &account.outside_place) {
             self.add(
                 "outside",
                 &format!(
@@ -87,7 +87,9 @@ impl Lines {
             );
         }
         if let Some(smallest) = run.smallest_eigenvalue {
-            self.add("spectrum", &format!("smallest eigenvalue {smallest:.6e}"));
+            // Of a matrix that changes from step to step.
+            let when = if run.foot_points.is_some() { "met on the way " } else { "" };
+            self.add("spectrum", &format!("smallest eigenvalue {when}{smallest:.6e}"));
         }
         if let Some(seconds) = account.seconds {
             let write = seconds.write.map(|s| format!(", write {}", time(s))).unwrap_or_default();

@@ -99,6 +99,43 @@ fn geometric_interpolation_tells_how_its_foot_points_fared() {
     assert!(fall_back["reason"].as_str().unwrap().contains("lost their order"));
 }
 
+/// Once the file of every step told the parameters and residuals of the last.
+#[test]
+fn files_of_a_family_of_geometric_interpolation_hold_the_foot_points_of_their_step() {
+    let place = Place::with("wave.csv", wave(20));
+    let line = "curve wave.csv --method geometric --keep 0,2";
+    place.run(&format!("{line} -o k-{{k}}.json -o whole.json")).code(0);
+    let whole = place.document("whole.json");
+    let mut seen = Vec::new();
+    for (k, kept) in [0, 2].into_iter().zip(whole["sequence"].as_array().unwrap()) {
+        let member = place.document(&format!("k-{k}.json"));
+        assert_eq!(kept["parameters"], member["parameters"]);
+        let residual = |value: &Value| value["max_residual"].as_f64().unwrap();
+        let gap = residual(kept) - residual(&member["report"]);
+        assert!(gap.abs() < 1e-12 * residual(kept), "{gap:e}");
+        seen.push(member["report"]["foot_points"]["largest_move"].as_f64().unwrap());
+    }
+    assert!(seen[0] != seen[1], "{seen:?}");
+}
+
+#[test]
+fn the_least_eigenvalue_of_geometric_interpolation_is_an_option() {
+    let place = Place::with("wave.csv", wave(9));
+    let fit = |rest: &str| place.fit(&format!("wave.csv {rest} --iterations 5 --residual 0"));
+    let fell = |document: &Value| !document["report"]["foot_points"]["fall_back"].is_null();
+    let line = "--method geometric --least-eigenvalue";
+    assert!(fell(&fit(&format!("{line} 0.9"))));
+    assert!(!fell(&fit(&format!("{line} 1e-9"))));
+    for (rest, what) in [
+        ("--method pia --least-eigenvalue 0.1", "belongs to --method geometric"),
+        ("--method geometric --least-eigenvalue 1", "between 0 and 1"),
+        ("--method geometric --least-eigenvalue nan", "--least-eigenvalue"),
+        ("--method geometric --basis bernstein", "--knots bezier"),
+    ] {
+        place.run(&format!("curve wave.csv {rest}")).code(2).says(&[what]);
+    }
+}
+
 #[test]
 fn weights_given_per_point_act_like_the_same_weight_given_once() {
     let place = Place::with("wave.csv", wave(12));

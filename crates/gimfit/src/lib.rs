@@ -63,7 +63,7 @@ pub use error::Error;
 pub use fit::{
     ApproximationOptions, BlendingCurveFit, BlendingOptions, BlendingSurfaceFit,
     BlendingSurfaceOptions, Convexity, Corners, CurveDiagnosis, CurveFit, CurveOptions, EditReport,
-    EditableCurve, EditableSurface, Goal, IterationWeight, KeptFit, LeastSquaresKnots,
+    EditableCurve, EditableSurface, Goal, IterationWeight, KeptFit, KeptFootPoints, LeastSquaresKnots,
     LeastSquaresMethod, LeastSquaresOptions, LeastSquaresSurfaceOptions, LeastSquaresWeight,
     Method, SurfaceEditReport, SurfaceFit, SurfaceOptions, SurfaceWeight, TriangleFit,
     TriangleOptions, approximate_curve, approximate_curve_observed, diagnose_blending_curve,

@@ -93,10 +93,15 @@ fn any_options() -> impl Strategy<Value = CurveOptions> {
         2 => prop::collection::vec(weight_of_a_rational_curve, most).prop_map(Some),
         1 => prop::collection::vec(any_coordinate(), 0..most).prop_map(Some),
     ];
+    let least_eigenvalue = prop_oneof![
+        4 => Just(None),
+        2 => (1e-12..1.0).prop_map(Some),
+        1 => any::<f64>().prop_map(Some),
+    ];
     (
         (0_usize..12, any::<bool>(), parameterization, knots, (convexity, rational_weights)),
         (method, weight, 0_usize..60, residual),
-        (duplicates, prop::collection::vec(0_usize..40, 0..4), local),
+        (duplicates, prop::collection::vec(0_usize..40, 0..4), local, least_eigenvalue),
     )
         .prop_map(|(curve, iteration, rest)| CurveOptions {
             local: rest.2,
@@ -108,6 +113,7 @@ fn any_options() -> impl Strategy<Value = CurveOptions> {
             rational_weights: curve.4.1,
             method: iteration.0,
             weight: iteration.1,
+            least_eigenvalue: rest.3,
             iterations: iteration.2,
             residual: iteration.3,
             duplicates: rest.0,
@@ -142,7 +148,7 @@ fn check(dimension: usize, coordinates: &[f64], options: &CurveOptions) {
                 report.run.residual_target
             ]));
             // The deviation is that of all points, the residual that of those chosen.
-            let outside = report.run.local.map_or(0.0, |local| local.outside_max_residual);
+            let outside = report.run.local.as_ref().map_or(0.0, |local| local.outside_max_residual);
             assert!(outside.is_finite());
             assert!(report.max_deviation <= report.run.max_residual.max(outside));
             assert!(report.run.iterations <= options.iterations);
@@ -180,7 +186,7 @@ fn check_surface(
                 report.run.rms_residual,
                 report.max_deviation
             ]));
-            let outside = report.run.local.map_or(0.0, |local| local.outside_max_residual);
+            let outside = report.run.local.as_ref().map_or(0.0, |local| local.outside_max_residual);
             assert!(report.max_deviation <= report.run.max_residual.max(outside));
             for (u, v) in fit.surface.knots()[0]
                 .equal_steps(4)
@@ -230,6 +236,7 @@ proptest! {
             rational_weights: fit_count(u.rational_weights, rows * columns),
             method: u.method,
             weight: u.weight.into(),
+            least_eigenvalue: u.least_eigenvalue,
             local,
             per_direction,
             iterations: u.iterations,

@@ -322,7 +322,7 @@ fn no_choice_of_points_makes_a_fit_panic_or_tell_no_number() {
         };
         if let Ok(fit) = fit_curve(data, &options) {
             assert!(fit.report.run.max_residual.is_finite());
-            let local = fit.report.run.local;
+            let local = fit.report.run.local.as_ref();
             assert!(local.is_none_or(|local| local.outside_max_residual.is_finite()));
             let control = fit.curve.control_points();
             assert!(control.coordinates().iter().all(|x| x.is_finite()));

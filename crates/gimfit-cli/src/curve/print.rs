@@ -44,7 +44,11 @@ pub(super) fn report(job: &Job<'_>, written: &[String]) -> String {
     lines.run(&RunLines {
         run: &report.run,
         max_residual_place: place(job, report.max_residual_index),
-        outside_place: report.run.local.map(|local| place(job, local.outside_max_residual_index)),
+        outside_place: report
+            .run
+            .local
+            .as_ref()
+            .map(|local| place(job, local.outside_max_residual_index)),
         max_deviation: report.max_deviation,
         max_deviation_place: place(job, report.max_deviation_index),
         seconds: job.document.report.as_ref().and_then(|report| report.run.seconds),

@@ -2,7 +2,7 @@
 
 use super::arguments::{ClosedChoice, GridParameterRule, SurfaceArguments};
 use crate::arguments::{KnotRule, RuleOrFile};
-use crate::basis::{basis, only_b_splines};
+use crate::basis::{basis, ensure_no_foot_points, only_b_splines};
 use crate::curve::{degree, knot_placement};
 use crate::input;
 use crate::method::{ensure_kept_fits_fit, method, only_windows, weight, weight_file};
@@ -63,6 +63,9 @@ impl Plan {
             arguments.knots.as_ref().map(|choices| knot_placement(&choices.0[k])).transpose()
         };
         let bases = blending(arguments, &grid)?;
+        if bases.is_some() {
+            ensure_no_foot_points(method)?;
+        }
         let counts = [(grid.rows, "rows of points"), (grid.columns, "columns of points")];
         let degree = |k: usize| {
             let rule = arguments.knots.as_ref().map(|choices| &choices.0[k]);
@@ -83,6 +86,7 @@ impl Plan {
                 .transpose()?,
             method,
             weight,
+            least_eigenvalue: arguments.iteration.least_eigenvalue,
             local,
             per_direction: arguments.per_direction,
             iterations: arguments.iteration.iterations,

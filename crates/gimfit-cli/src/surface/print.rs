@@ -43,7 +43,7 @@ pub(super) fn report(job: &Job<'_>, written: &[String]) -> String {
     lines.add_all("edits", &job.edits);
     let place = |[i, j]: [usize; 2]| grid.point_name(i, j);
     let columns = report.points[1];
-    let outside = report.run.local.map(|local| {
+    let outside = report.run.local.as_ref().map(|local| {
         let index = local.outside_max_residual_index;
         place([index / columns, index % columns])
     });

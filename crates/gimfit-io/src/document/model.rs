@@ -139,6 +139,9 @@ pub struct SequenceFit {
     pub rms_residual: f64,
     /// Its control points.
     pub control_points: PointRows,
+    /// Parameters of the foot points on it; geometric interpolation only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub parameters: Option<Vec<f64>>,
 }
 
 impl SequenceFit {
@@ -150,6 +153,7 @@ impl SequenceFit {
             max_residual: kept.entry.max_residual,
             rms_residual: kept.entry.rms_residual,
             control_points: (&kept.control_points).into(),
+            parameters: kept.foot_points.as_ref().and_then(|points| points.parameters.clone()),
         }
     }
 }

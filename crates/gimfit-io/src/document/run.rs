@@ -123,11 +123,12 @@ pub struct RunData {
     pub residual_target: f64,
     /// Diagonal of the data's bounding box.
     pub extent: f64,
-    /// Largest norm of a difference vector.
+    /// Largest norm of a difference vector, of the points that took part.
     pub max_residual: f64,
-    /// Root mean square of the norms.
+    /// Root mean square of the norms, of the same points.
     pub rms_residual: f64,
-    /// Smallest eigenvalue of the collocation operator, where it was needed.
+    /// Smallest eigenvalue of the collocation operator, where it was needed; of geometric interpolation
+    /// the smallest met up to the fit returned.
     pub smallest_eigenvalue: Option<f64>,
     /// How the foot points of geometric interpolation fared; absent for other methods.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -165,8 +166,8 @@ impl RunData {
             smallest_eigenvalue: run.smallest_eigenvalue,
             foot_points: run.foot_points.as_ref().map(FootPointData::of),
             moves: run.updates.map(|moves| MovesData { made: moves.done, saved: moves.saved }),
-            local: run.local.map(|local| LocalData {
-                points: local.points,
+            local: run.local.as_ref().map(|local| LocalData {
+                points: local.chosen.len(),
                 outside_max_residual: local.outside_max_residual,
                 outside_max_residual_index: local.outside_max_residual_index,
             }),

@@ -52,14 +52,22 @@ pub struct NetFit {
     pub entry: HistoryRow,
     /// Its control net.
     pub control_points: Vec<PointRows>,
+    /// Parameters (u, v) of the foot points on it, in rows, as those of the document.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub foot_parameters: Option<Vec<Vec<[f64; 2]>>>,
 }
 
 impl NetFit {
-    fn of(kept: &KeptFit, columns: usize) -> Self {
+    /// `columns` and `points_in_row`: of the net and of the points fitted.
+    fn of(kept: &KeptFit, columns: usize, points_in_row: usize) -> Self {
         let points = &kept.control_points;
+        let flat = kept.foot_points.as_ref().and_then(|points| points.parameters.as_deref());
+        let pairs = |row: &[f64]| row.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
         Self {
             entry: HistoryRow::of(&kept.entry),
             control_points: rows(points.coordinates(), columns, points.dimension()),
+            foot_parameters: flat
+                .map(|flat| flat.chunks_exact((2 * points_in_row).max(1)).map(pairs).collect()),
         }
     }
 }
@@ -68,6 +76,7 @@ impl NetFit {
 #[must_use]
 pub fn surface_document_of(fit: &SurfaceFit) -> SurfaceDocument {
     let columns = fit.surface.control_net().shape()[1];
+    let points_in_row = fit.parameters[1].len();
     SurfaceDocument {
         format: "gimfit".into(),
         version: 1,
@@ -80,8 +89,9 @@ pub fn surface_document_of(fit: &SurfaceFit) -> SurfaceDocument {
             .map(|pairs| pairs.chunks(fit.parameters[1].len().max(1)).map(<[_]>::to_vec).collect()),
         coordinate_names: None,
         report: Some(SurfaceReportData::of(&fit.report)),
-        sequence: (!fit.sequence.is_empty())
-            .then(|| fit.sequence.iter().map(|kept| NetFit::of(kept, columns)).collect()),
+        sequence: (!fit.sequence.is_empty()).then(|| {
+            fit.sequence.iter().map(|kept| NetFit::of(kept, columns, points_in_row)).collect()
+        }),
     }
 }
 

@@ -41,7 +41,11 @@ impl BlendingCurveFit {
     pub fn to_bezier(&self) -> Result<CurveFit, Error> {
         let kept = self.sequence.iter().map(|kept| {
             let curve = self.curve.bezier_with(&kept.control_points)?;
-            Ok(KeptFit { entry: kept.entry, control_points: curve.control_points().clone() })
+            Ok(KeptFit {
+                entry: kept.entry,
+                control_points: curve.control_points().clone(),
+                foot_points: None,
+            })
         });
         Ok(CurveFit {
             curve: self.curve.to_bezier()?,
@@ -116,6 +120,7 @@ pub fn fit_blending_curve_observed<'a>(
         stopping,
         keep: &options.keep,
         expand: &|control| control,
+        foot_points: None,
     };
     let mut solved = solve(&task, &mut rule, observer)?;
     drop(rule);

@@ -42,7 +42,7 @@ impl BlendingSurfaceFit {
         let kept = self.sequence.iter().map(|kept| {
             let surface = self.surface.bezier_with(&kept.control_points)?;
             let control_points = surface.control_net().points().clone();
-            Ok(KeptFit { entry: kept.entry, control_points })
+            Ok(KeptFit { entry: kept.entry, control_points, foot_points: None })
         });
         Ok(SurfaceFit {
             surface: self.surface.to_bezier()?,

@@ -1,15 +1,16 @@
 //! Interpolation of ordered points by a B-spline curve.
 
 use super::convex::{Interpolating, Keeping};
-use super::geometric::{self, Account};
+use super::geometric;
 use super::local::{Chosen, positions_fitted};
 use super::prepare::{Prepared, prepare};
 use super::rational::fitted_weights;
 use super::solve::{Size, Task, norm, solve, unscaled};
-use super::{CurveOptions, KeptFit, Method, local};
+use super::{CurveOptions, KeptFit, KeptFootPoints, Method, local};
 use crate::Error;
 use crate::collocation::{
-    BandedCollocation, CollocationOperator, ControlLayout, LocalCollocation, interpolation, wrap,
+    BandedCollocation, CollocationOperator, ControlLayout, LocalCollocation, interpolation,
+    smallest_eigenvalue_of, wrap,
 };
 use crate::geometry::Curve;
 use crate::iteration::{NoObserver, Observer};
@@ -248,7 +249,12 @@ fn fit_problem(
         geometric::check_dimension(dimension, 2)?;
         let start = parameters.values();
         let weights = rational_weights.as_deref();
-        let moving = FootPointCollocation::new(built, &knots, start, dimension, weights)?;
+        let (least, note) = geometric::least_eigenvalue(options.least_eigenvalue, || {
+            smallest_eigenvalue_of(&built.operator).map(|bounds| bounds.estimate)
+        })?;
+        notes.extend(note);
+        let moving = FootPointCollocation::new(built, &knots, start, dimension, weights)?
+            .with_least_eigenvalue(least);
         Rows::Moving(Box::new(if global_start { moving.with_global_start() } else { moving }))
     } else {
         Rows::Fixed(built.operator)
@@ -280,6 +286,10 @@ fn fit_problem(
             None => stored,
         }
     };
+    let foot_points = match &rows {
+        Rows::Moving(moving) => Some(|| geometric::curve_account(moving)),
+        Rows::Fixed(_) => None,
+    };
     let task = Task {
         operator: seen.as_ref().map_or(operator, |seen| seen),
         data: data.coordinates(),
@@ -288,6 +298,7 @@ fn fit_problem(
         stopping,
         keep: &options.keep,
         expand: &expand,
+        foot_points: foot_points.as_ref().map(|tell| tell as &dyn Fn() -> KeptFootPoints),
     };
     let mut solved = solve(&task, &mut chosen, observer)?;
     if let (Some(seen), Some(local)) = (&seen, &local) {
@@ -299,7 +310,16 @@ fn fit_problem(
     let parameters = match rows {
         Rows::Fixed(_) => parameters,
         Rows::Moving(moving) => {
-            Account::of_curve(&moving).tell(&mut solved, |j| format!("number {}", j + 1));
+            let account = geometric::curve_account(&moving);
+            let sentences = geometric::curve_sentences(&account.report);
+            geometric::tell(&account, sentences, &mut solved.run);
+            for kept in solved.sequence.iter_mut().filter_map(|kept| kept.foot_points.as_mut()) {
+                // As they are stored with a curve.
+                if let Some(values) = kept.parameters.take() {
+                    let moved = parameters.clone().moved(values)?;
+                    kept.parameters = Some(finish_parameters(moved, &knots, layout).0);
+                }
+            }
             parameters.moved(moving.rising_parameters())?
         }
     };

@@ -3,15 +3,20 @@
 
 use super::method::{ChosenRule, check_weight};
 use super::solve::{Solved, Task, solve};
-use super::{IterationWeight, Method};
+use super::surface_method::smallest_rational_eigenvalue;
+use super::{IterationWeight, KeptFootPoints, Method};
 use crate::Error;
-use crate::collocation::{CollocationMatrix, Factorization, NetLayout, NetWeights};
+use crate::collocation::{
+    CollocationMatrix, Factorization, NetLayout, NetWeights, smallest_eigenvalue_of,
+};
 use crate::iteration::update::{Both, Preconditioned, Rescaled};
 use crate::iteration::{Observer, Step, UpdateRule};
 use crate::knots::KnotVector;
 use crate::parameters::Parameters;
-use crate::projection::{FallBack, FootPointCollocation, SurfaceFootPointCollocation};
-use crate::report::FootPointReport;
+use crate::projection::{
+    FallBack, FootPointCollocation, SMALLEST_EIGENVALUE, SurfaceFootPointCollocation,
+};
+use crate::report::{FootPointReport, RunReport};
 
 /// PIA while foot points move; once they are given up, steps with all of the matrix.
 #[derive(Debug)]
@@ -91,6 +96,8 @@ pub(super) struct Net<'a> {
     pub(super) rational_weights: Option<&'a [f64]>,
     /// The same where they are no product of weights of the directions.
     pub(super) rational: Option<&'a NetWeights>,
+    /// The alpha of the theorem, if the caller gave one.
+    pub(super) least_eigenvalue: Option<f64>,
 }
 
 /// Runs a surface. Also returns the pairs of parameters of its points, unless they ended at those of
@@ -113,17 +120,25 @@ pub(super) fn solve_surface(
         task.dimension,
         net.rational_weights,
     )?;
+    let [u, v] = net.directions;
+    let (least, note) = least_eigenvalue(net.least_eigenvalue, || match net.rational {
+        Some(rational) => smallest_rational_eigenvalue(u, v, rational),
+        None => Ok(smallest_eigenvalue_of(u)?.estimate * smallest_eigenvalue_of(v)?.estimate),
+    })?;
+    let operator = operator.with_least_eigenvalue(least);
     let global_start = matches!(method, Method::Geometric { global_start: true });
     let operator = if global_start { operator.with_global_start() } else { operator };
     let (directions, rational) = (net.directions, net.rational);
     let rule = SurfaceRule { operator: &operator, directions, rational, finish: None };
     let mut chosen = chosen(Box::new(rule), method, weight)?;
-    let mut solved = solve(&Task { operator: &operator, ..*task }, &mut chosen, observer)?;
+    chosen.choices.extend(note);
+    let foot_points = || surface_account(&operator);
+    let task = Task { operator: &operator, foot_points: Some(&foot_points), ..*task };
+    let mut solved = solve(&task, &mut chosen, observer)?;
     drop(chosen);
     let columns = net.parameters[1].values().len();
-    Account::of_surface(&operator).tell(&mut solved, |point| {
-        format!("in row {}, column {}", point / columns + 1, point % columns + 1)
-    });
+    let account = surface_account(&operator);
+    tell(&account, surface_sentences(&account.report, columns), &mut solved.run);
     Ok((solved, operator.parameters()))
 }
 
@@ -155,54 +170,97 @@ pub(super) fn check_dimension(dimension: usize, least: usize) -> Result<(), Erro
     })
 }
 
-/// How foot points fared.
-pub(super) struct Account {
-    largest_move: f64,
-    smallest_eigenvalue: Option<f64>,
-    fall_back: Option<FallBack>,
-    /// The parameters it falls back to.
-    fixed: &'static str,
+/// How the foot points of a curve have fared up to now. Parameters rise: those of a closed curve go on
+/// past the seam.
+pub(super) fn curve_account(operator: &FootPointCollocation) -> KeptFootPoints {
+    let (largest_move, fall_back) = (operator.largest_move(), operator.fall_back());
+    KeptFootPoints {
+        parameters: Some(operator.rising_parameters()),
+        report: FootPointReport { largest_move, fall_back },
+        smallest_eigenvalue: operator.smallest_eigenvalue(),
+    }
 }
 
-impl Account {
-    pub(super) fn of_curve(operator: &FootPointCollocation) -> Self {
-        Self {
-            largest_move: operator.largest_move(),
-            smallest_eigenvalue: operator.smallest_eigenvalue(),
-            fall_back: operator.fall_back(),
-            fixed: "those of the last good foot points",
-        }
+fn surface_account(operator: &SurfaceFootPointCollocation<'_>) -> KeptFootPoints {
+    let (largest_move, fall_back) = (operator.largest_move(), operator.fall_back());
+    KeptFootPoints {
+        parameters: operator.parameters().map(|pairs| pairs.into_flattened()),
+        report: FootPointReport { largest_move, fall_back },
+        smallest_eigenvalue: operator.smallest_eigenvalue(),
     }
+}
 
-    fn of_surface(operator: &SurfaceFootPointCollocation<'_>) -> Self {
-        Self {
-            largest_move: operator.largest_move(),
-            smallest_eigenvalue: operator.smallest_eigenvalue(),
-            fall_back: operator.fall_back(),
-            fixed: "those assigned to rows and columns",
-        }
-    }
+/// What a report says of the foot points of a curve.
+pub(super) fn curve_sentences(report: &FootPointReport) -> Vec<String> {
+    let name = |j: usize| format!("number {}", j + 1);
+    sentences(report, "those of the last good foot points", name)
+}
 
-    /// Puts the account into the report of a run, where `name` names a data point by its index.
-    pub(super) fn tell(self, solved: &mut Solved, name: impl Fn(usize) -> String) {
-        let Self { largest_move, smallest_eigenvalue, fall_back, fixed } = self;
-        let choices = &mut solved.run.choices;
-        if let Some(FallBack { iteration, reason }) = fall_back {
-            let fixed = if iteration == 0 { "those assigned" } else { fixed };
-            choices.push(format!(
-                "fell back at iteration {iteration} to fixed parameters, {fixed}: {}",
-                reason.sentence(name)
-            ));
-            choices.push(
-                "method from there: preconditioned PIA with the whole band, which reaches the \
-                 interpolant at these parameters in a few steps"
-                    .into(),
-            );
-        }
-        if largest_move > 0.0 {
-            choices.push(format!("parameters: moved by up to {largest_move:.4e}"));
-        }
-        solved.run.smallest_eigenvalue = smallest_eigenvalue;
-        solved.run.foot_points = Some(FootPointReport { largest_move, fall_back });
+/// The same of a surface through rows of so many points.
+pub(super) fn surface_sentences(report: &FootPointReport, columns: usize) -> Vec<String> {
+    sentences(report, "those assigned to rows and columns", |point| {
+        format!("in row {}, column {}", point / columns + 1, point % columns + 1)
+    })
+}
+
+/// `fixed`: the parameters it falls back to; `name` names a data point by its index.
+fn sentences(report: &FootPointReport, fixed: &str, name: impl Fn(usize) -> String) -> Vec<String> {
+    let mut list = Vec::new();
+    if let Some(FallBack { iteration, reason }) = report.fall_back {
+        let fixed = if iteration == 0 { "those assigned" } else { fixed };
+        list.push(format!(
+            "fell back at iteration {iteration} to fixed parameters, {fixed}: {}",
+            reason.sentence(name)
+        ));
+        list.push(
+            "method from there: preconditioned PIA with the whole band, which reaches the \
+             interpolant at these parameters in a few steps"
+                .into(),
+        );
     }
+    if report.largest_move > 0.0 {
+        list.push(format!("parameters: moved by up to {:.4e}", report.largest_move));
+    }
+    list
+}
+
+/// Puts the account into the report of a run.
+pub(super) fn tell(account: &KeptFootPoints, mut sentences: Vec<String>, run: &mut RunReport) {
+    run.choices.append(&mut sentences);
+    run.smallest_eigenvalue = account.smallest_eigenvalue;
+    run.foot_points = Some(account.report);
+}
+
+/// The share of the smallest eigenvalue at the parameters assigned that must be left of it.
+const LEFT_OF_EIGENVALUE: f64 = 0.1;
+
+/// The alpha of the convergence theorem: what the caller gave, or what suits the `start`, the
+/// smallest eigenvalue at the parameters assigned. Also the sentence on it, where it is not the usual.
+pub(super) fn least_eigenvalue(
+    given: Option<f64>,
+    start: impl FnOnce() -> Result<f64, Error>,
+) -> Result<(f64, Option<String>), Error> {
+    if let Some(alpha) = given {
+        if alpha > 0.0 && alpha < 1.0 {
+            return Ok((alpha, None));
+        }
+        return Err(Error::OutOfRange {
+            what: "least eigenvalue of geometric interpolation".into(),
+            value: alpha,
+            rule: "it must lie between 0 and 1, as the eigenvalues do",
+        });
+    }
+    let start = start()?;
+    let share = LEFT_OF_EIGENVALUE * start;
+    // A matrix that is singular to doubles has nothing to be a share of.
+    if !(share > f64::EPSILON && share < SMALLEST_EIGENVALUE) {
+        return Ok((SMALLEST_EIGENVALUE, None));
+    }
+    Ok((
+        share,
+        Some(format!(
+            "least eigenvalue: {share:.1e}, a tenth of that at the parameters assigned, {start:.1e}, \
+             which is small: expect slow steps"
+        )),
+    ))
 }

@@ -90,7 +90,7 @@ impl Chosen {
     ) {
         let norms = seen.outside(data, &solved.control, dimension, &mut solved.vectors);
         solved.run.local = Some(LocalReport {
-            points: self.points.len(),
+            chosen: self.points.clone(),
             outside_max_residual: scale.undo(norms.max),
             outside_max_residual_index: norms.max_index,
         });

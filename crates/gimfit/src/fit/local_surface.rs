@@ -150,7 +150,7 @@ impl ChosenNet {
         solved.vectors = vectors;
         let run = &mut solved.run;
         run.local = Some(LocalReport {
-            points: self.points.len(),
+            chosen: self.points.clone(),
             outside_max_residual: whole.size.scale.undo(outside.max),
             outside_max_residual_index: outside.max_index,
         });
@@ -227,6 +227,7 @@ impl ChosenNet {
             stopping: part.stopping,
             keep: &part.options.keep,
             expand: part.expand,
+            foot_points: None,
         };
         solve(&task, &mut chosen, observer)
     }

@@ -36,7 +36,7 @@ pub use curve::{CurveFit, fit_curve, fit_curve_observed, interpolate};
 pub use diagnose::{CurveDiagnosis, diagnose_blending_curve, diagnose_curve};
 pub use diagnose_surface::{SurfaceDiagnosis, diagnose_surface};
 pub use edit::{EditReport, EditableCurve, EditableSurface, SurfaceEditReport};
-pub use keep::KeptFit;
+pub use keep::{KeptFit, KeptFootPoints};
 pub use least_squares::{
     LeastSquaresKnots, LeastSquaresMethod, LeastSquaresOptions, LeastSquaresSurfaceOptions,
     LeastSquaresWeight, fit_least_squares, fit_least_squares_observed, fit_least_squares_surface,

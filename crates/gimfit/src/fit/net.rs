@@ -53,6 +53,7 @@ impl<'a> Setting<'a> {
             stopping: self.stopping,
             keep: &[],
             expand: self.expand,
+            foot_points: None,
         }
     }
 

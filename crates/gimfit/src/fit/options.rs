@@ -104,6 +104,11 @@ pub struct CurveOptions {
     pub method: Method,
     /// Its weight.
     pub weight: IterationWeight,
+    /// Of [`Method::Geometric`]: the smallest eigenvalue of the collocation matrix with which foot
+    /// points go on, the alpha of Lin (2010), theorem 1, in (0, 1). `None`:
+    /// [`SMALLEST_EIGENVALUE`](crate::projection::SMALLEST_EIGENVALUE), or a tenth of the eigenvalue at
+    /// the parameters assigned where that is less.
+    pub least_eigenvalue: Option<f64>,
     /// Positions, in the array given, of the points whose control points move, in any order; `None`:
     /// all. The method then runs on the matrix of these points, and residual and stopping count them
     /// alone. A repetition that is dropped stands for the point it repeats. Not with
@@ -131,6 +136,7 @@ impl Default for CurveOptions {
             rational_weights: None,
             method: Method::Auto,
             weight: IterationWeight::Auto,
+            least_eigenvalue: None,
             local: None,
             iterations: 1000,
             residual: None,
@@ -275,6 +281,8 @@ pub struct SurfaceOptions {
     pub method: Method,
     /// Its weight.
     pub weight: SurfaceWeight,
+    /// As [`CurveOptions::least_eigenvalue`].
+    pub least_eigenvalue: Option<f64>,
     /// Windows of the points whose control points move, rows and columns of the grid given, counted
     /// from 0; `None`: all. Their union moves, as in [`CurveOptions::local`]. Where it is all crossings
     /// of some rows with some columns, every method goes with it but geometric interpolation; of other
@@ -300,6 +308,7 @@ impl Default for SurfaceOptions {
             rational_weights: None,
             method: Method::Auto,
             weight: SurfaceWeight::default(),
+            least_eigenvalue: None,
             local: None,
             per_direction: false,
             iterations: 1000,

@@ -3,7 +3,7 @@
 
 use super::keep::{Keeper, undo};
 use super::method::ChosenRule;
-use super::{Convexity, KeptFit};
+use super::{Convexity, KeptFit, KeptFootPoints};
 use crate::Error;
 use crate::collocation::{CollocationOperator, ResidualNorms};
 use crate::iteration::{IterationState, Observer, Outcome, ROUNDING, Stopping, Termination, run};
@@ -116,6 +116,8 @@ pub(super) struct Task<'a> {
     pub(super) keep: &'a [usize],
     /// Makes stored control points of moving ones.
     pub(super) expand: &'a dyn Fn(Vec<f64>) -> Vec<f64>,
+    /// Tells where foot points are, if they move.
+    pub(super) foot_points: Option<&'a dyn Fn() -> KeptFootPoints>,
 }
 
 /// Runs a rule from the data to its stop.
@@ -134,11 +136,11 @@ pub(super) fn solve_from(
     chosen: &mut ChosenRule<'_>,
     observer: &mut dyn Observer,
 ) -> Result<Solved, Error> {
-    let &Task { operator, data, dimension, size, stopping, keep, expand } = task;
+    let &Task { operator, data, dimension, size, stopping, keep, expand, foot_points } = task;
     let scale = size.scale;
     let mut choices = std::mem::take(&mut chosen.choices);
     let mut state = IterationState::begin_at(operator, data, start, dimension);
-    let mut keeper = Keeper::new(keep, expand, dimension, observer);
+    let mut keeper = Keeper::new(keep, expand, foot_points, dimension, observer);
     let outcome = run(&mut state, chosen.rule.as_mut(), stopping, &mut keeper);
     let sequence = keeper.finish(scale, &outcome, &mut choices)?;
     let Outcome { termination, iterations, mut history } = outcome;

@@ -131,6 +131,7 @@ pub fn fit_surface_observed(
             parameters: [&u.parameters, &v.parameters],
             rational_weights: rational_weights.as_deref(),
             rational: directions.rational,
+            least_eigenvalue: options.least_eigenvalue,
         };
         let (solved, pairs) = at_foot_points(&setting, net, observer)?;
         ((solved, None), pairs)

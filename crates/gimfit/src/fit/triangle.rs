@@ -118,6 +118,7 @@ pub fn fit_triangular_patch_observed<'a>(
         stopping,
         keep: &options.keep,
         expand: &|control| control,
+        foot_points: None,
     };
     let mut solved = solve(&task, &mut chosen, observer)?;
     drop(chosen);

@@ -3,8 +3,8 @@
 use std::fmt;
 
 /// Smallest eigenvalue of the collocation matrix at the foot points that geometric interpolation
-/// goes on with: the `alpha` of Lin (2010), theorem 1. Below it a thousand steps would leave more
-/// than a third of the residual.
+/// goes on with by default: the `alpha` of Lin (2010), theorem 1. Below it a thousand steps would leave
+/// more than a third of the residual. The theorem asks for some positive one.
 pub const SMALLEST_EIGENVALUE: f64 = 1e-3;
 
 /// Share of the step between two parameters, as they were assigned, that must be left of it.
@@ -36,10 +36,12 @@ pub enum FallBackReason {
         /// The data point, from 0.
         point: usize,
     },
-    /// The smallest eigenvalue fell below [`SMALLEST_EIGENVALUE`].
+    /// The smallest eigenvalue fell below the least one allowed.
     Eigenvalue {
         /// What it was found to be.
         eigenvalue: f64,
+        /// The least one allowed.
+        least: f64,
     },
     /// The largest residual rose above that of the first foot points.
     Growth {
@@ -85,9 +87,9 @@ impl FallBackReason {
                 "the foot point of the data point {} left the support of its basis function",
                 name(point)
             ),
-            Self::Eigenvalue { eigenvalue } => format!(
+            Self::Eigenvalue { eigenvalue, least } => format!(
                 "the smallest eigenvalue of the collocation matrix fell to {eigenvalue:.1e}, below \
-                 {SMALLEST_EIGENVALUE:e}"
+                 the least allowed, {least:.1e}"
             ),
             Self::Growth { ratio } => format!(
                 "the largest residual grew to {ratio:.3} times that of the first foot points"

@@ -74,6 +74,7 @@ impl FootPointCollocation {
             watch: EigenvalueWatch::new(points),
             calls: 0,
             global_start: false,
+            least_eigenvalue: SMALLEST_EIGENVALUE,
             first_residual: f64::INFINITY,
             smallest_eigenvalue: None,
             fixed: false,
@@ -86,6 +87,13 @@ impl FootPointCollocation {
     #[must_use]
     pub fn with_global_start(self) -> Self {
         self.lock().global_start = true;
+        self
+    }
+
+    /// The same with another alpha than [`SMALLEST_EIGENVALUE`].
+    #[must_use]
+    pub fn with_least_eigenvalue(self, alpha: f64) -> Self {
+        self.lock().least_eigenvalue = alpha;
         self
     }
 
@@ -206,6 +214,8 @@ struct Moving {
     calls: usize,
     /// Whether the first foot points are the nearest of all.
     global_start: bool,
+    /// The smallest eigenvalue with which foot points go on.
+    least_eigenvalue: f64,
     first_residual: f64,
     smallest_eigenvalue: Option<f64>,
     /// Whether foot points were given up.
@@ -228,8 +238,9 @@ impl Moving {
         self.check_order()?;
         self.collocate_next()?;
         let eigenvalue = self.eigenvalue();
-        if eigenvalue.is_nan() || eigenvalue < SMALLEST_EIGENVALUE {
-            return Err(FallBackReason::Eigenvalue { eigenvalue });
+        if eigenvalue.is_nan() || eigenvalue < self.least_eigenvalue {
+            let least = self.least_eigenvalue;
+            return Err(FallBackReason::Eigenvalue { eigenvalue, least });
         }
         let operator = &self.interpolation.operator;
         let residual = operator.difference_vectors(data, control, dimension, result).max;
@@ -291,9 +302,10 @@ impl Moving {
     }
 
     fn collocate_next(&mut self) -> Result<(), FallBackReason> {
+        let least = self.least_eigenvalue;
         self.collocate(Parameters::Next).map_err(|error| match error {
             Error::SchoenbergWhitney { point, .. } => FallBackReason::SchoenbergWhitney { point },
-            _ => FallBackReason::Eigenvalue { eigenvalue: 0.0 },
+            _ => FallBackReason::Eigenvalue { eigenvalue: 0.0, least },
         })
     }
 
@@ -302,9 +314,9 @@ impl Moving {
     fn eigenvalue(&mut self) -> f64 {
         let operator = &self.interpolation.operator;
         if self.curve.is_periodic() {
-            return self.watch.estimate(SMALLEST_EIGENVALUE, |x, ax| operator.apply(x, 1, ax));
+            return self.watch.estimate(self.least_eigenvalue, |x, ax| operator.apply(x, 1, ax));
         }
-        self.watch.enclose(operator, SMALLEST_EIGENVALUE).map_or(0.0, |bounds| bounds.estimate)
+        self.watch.enclose(operator, self.least_eigenvalue).map_or(0.0, |bounds| bounds.estimate)
     }
 
     /// Goes back to the parameters of the last good foot points, for good.

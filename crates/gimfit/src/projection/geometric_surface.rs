@@ -80,6 +80,7 @@ impl<'a> SurfaceFootPointCollocation<'a> {
             watch: EigenvalueWatch::new(shape[0] * shape[1]),
             calls: 0,
             global_start: false,
+            least_eigenvalue: SMALLEST_EIGENVALUE,
             first_residual: f64::INFINITY,
             smallest_eigenvalue: None,
             fixed: false,
@@ -92,6 +93,13 @@ impl<'a> SurfaceFootPointCollocation<'a> {
     #[must_use]
     pub fn with_global_start(self) -> Self {
         self.lock().global_start = true;
+        self
+    }
+
+    /// The same with another alpha than [`SMALLEST_EIGENVALUE`].
+    #[must_use]
+    pub fn with_least_eigenvalue(self, alpha: f64) -> Self {
+        self.lock().least_eigenvalue = alpha;
         self
     }
 
@@ -204,6 +212,8 @@ struct Moving {
     calls: usize,
     /// Whether the first foot points are the nearest of all.
     global_start: bool,
+    /// The smallest eigenvalue with which foot points go on.
+    least_eigenvalue: f64,
     first_residual: f64,
     smallest_eigenvalue: Option<f64>,
     /// Whether foot points were given up.
@@ -230,9 +240,10 @@ impl Moving {
             .collocate(next.iter().map(|&pair| reduced(surface, pair)), surface.knots())
             .map_err(|point| FallBackReason::SchoenbergWhitney { point })?;
         let rows = &self.rows;
-        let eigenvalue = self.watch.estimate(SMALLEST_EIGENVALUE, |x, ax| rows.apply(x, 1, ax));
-        if eigenvalue.is_nan() || eigenvalue < SMALLEST_EIGENVALUE {
-            return Err(FallBackReason::Eigenvalue { eigenvalue });
+        let eigenvalue = self.watch.estimate(self.least_eigenvalue, |x, ax| rows.apply(x, 1, ax));
+        if eigenvalue.is_nan() || eigenvalue < self.least_eigenvalue {
+            let least = self.least_eigenvalue;
+            return Err(FallBackReason::Eigenvalue { eigenvalue, least });
         }
         let norms = rows.difference_vectors(data, control, dimension, result);
         if calls == 0 {

@@ -50,10 +50,10 @@ pub struct RunReport {
 }
 
 /// The account of the points that local PIA left aside.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct LocalReport {
-    /// Points that took part.
-    pub points: usize,
+    /// The points that took part, rising, counted from 0 among those fitted; of a grid row by row.
+    pub chosen: Vec<usize>,
     /// Largest norm of a difference vector of all others.
     pub outside_max_residual: f64,
     /// The point where it is met, among those fitted.

@@ -298,6 +298,7 @@ fn solve_problem(
         stopping,
         keep: &options.keep,
         expand: &expand,
+        foot_points: None,
     };
     let Solved { control, mut run, sequence, .. } =
         solve_from(&task, &start, &mut chosen, observer)?;
