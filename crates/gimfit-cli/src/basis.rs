@@ -21,12 +21,6 @@ pub(crate) fn basis(
         points >= 2,
         "{source}: a curve of a basis needs at least 2 {what}, and there are {points}"
     );
-    ensure!(
-        points <= MAX_DEGREE + 1,
-        "{source}: {points} {what} ask for a basis of degree {}, and documents hold degrees up to \
-         {MAX_DEGREE}; use --basis b-spline",
-        points - 1
-    );
     let degree = points - 1;
     Ok(Some(match choice {
         BasisChoice::Bernstein => Arc::new(Bernstein::new(degree)?),
@@ -35,6 +29,17 @@ pub(crate) fn basis(
         BasisChoice::Dp => Arc::new(Dp::new(degree)?),
         BasisChoice::BSpline => return Ok(None),
     }))
+}
+
+/// Refuses a fit over a basis of more functions than documents hold in Bezier form.
+pub(crate) fn ensure_document_holds(points: usize, what: &str, source: &str) -> anyhow::Result<()> {
+    ensure!(
+        points <= MAX_DEGREE + 1,
+        "{source}: {points} {what} ask for a basis of degree {}, and documents hold degrees up to \
+         {MAX_DEGREE}; use --basis b-spline",
+        points.saturating_sub(1)
+    );
+    Ok(())
 }
 
 /// Refuses an option that belongs to B-splines, if it was given.

@@ -39,12 +39,14 @@ enum Ending {
 }
 
 fn main() -> ExitCode {
-    let arguments = Arguments::try_parse().unwrap_or_else(|error| output::usage(&error));
+    let arguments = Arguments::try_parse_from(arguments::routed(std::env::args_os()))
+        .unwrap_or_else(|error| output::usage(&error));
     let result = match arguments.command {
         Command::Curve(arguments) => curve::run(&arguments),
         Command::Edit(arguments) => curve::edit::run(&arguments),
         Command::Surface(arguments) => surface::run(&arguments),
         Command::Diagnose(arguments) => diagnose::run(&arguments),
+        Command::DiagnoseGrid(arguments) => diagnose::grid::run(&arguments),
         Command::Triangle(arguments) => triangle::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),
         Command::Project(arguments) => project::run(&arguments),

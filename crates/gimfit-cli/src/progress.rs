@@ -1,5 +1,6 @@
 //! A progress bar on a terminal, once the work turns out to be long.
 
+use crate::signal::{self, Stage};
 use gimfit::iteration::{Flow, Observer, Snapshot};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
@@ -53,7 +54,9 @@ impl Progress {
 
 impl Observer for Progress {
     fn observe(&mut self, snapshot: Snapshot<'_>) -> Flow {
+        // From here on there is a fit; an interrupt before ends the program.
+        signal::enter(Stage::Fitting);
         self.show(&snapshot);
-        if crate::signal::interrupted() { Flow::Stop } else { Flow::Continue }
+        if signal::interrupted() { Flow::Stop } else { Flow::Continue }
     }
 }

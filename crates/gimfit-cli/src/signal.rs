@@ -10,7 +10,7 @@ static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 /// What an interrupt meets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Stage {
-    /// Nothing worth keeping, or the result can be had again soon: the program ends.
+    /// No fit yet, or the result can be had again soon: the program ends.
     Reading = 0,
     /// The iteration stops, and its fit is written.
     Fitting = 1,

@@ -84,11 +84,15 @@ fn wrong_edits_name_the_option_and_write_nothing() {
         ("--knots not-a-knot --remove 3", "--knots"),
         ("--basis bernstein --remove 3", "--basis"),
         ("--residual 0 --remove 3", "--residual"),
+        ("--remove 3 -o e-{k}.json", "name one file"),
     ] {
         place.run(&format!("edit {file} {rest} -o out.json")).code(2).says(&[words]);
         assert!(!place.path("out.json").exists(), "{rest}");
     }
     place.write("few.csv", "x,y\n0,0\n1,1\n2,0\n3,1\n");
+    // Points are counted from 1 in what was asked and in what is told.
+    let told = place.run("edit few.csv --move 2=1,2").code(0).out;
+    assert!(told.contains(" at point ") && !told.contains("counted from 0"), "{told}");
     for (rest, words) in [
         ("--remove 1", "3 points would be left"),
         ("--move 2=2,0", "its neighbour, point 3"),

@@ -222,6 +222,28 @@ mod interrupts {
         assert_eq!(place.names(), ["fit.json", "long.csv"]);
     }
 
+    /// Once an interrupt of `edit` was not heeded.
+    #[test]
+    fn an_interrupted_edit_ends_with_130_and_writes_nothing() {
+        let place = Place::new();
+        let mut points = String::new();
+        (0..200_000).for_each(|i| writeln!(points, "{i},{}", i % 7).unwrap());
+        place.write("long.csv", points);
+        let child = place
+            .command("edit long.csv --move 5=4.5,1 -o e.json")
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        wait_for_ears(&child);
+        std::thread::sleep(Duration::from_millis(300));
+        interrupt(&child);
+        let code = ran(child.wait_with_output().unwrap()).code;
+        // On a machine so fast that it is done already there is nothing to interrupt.
+        assert!(code == Some(130) || place.holds("e.json"), "{code:?}");
+        assert!(code == Some(0) || !place.holds("e.json"), "{code:?}");
+    }
+
     #[test]
     fn an_interrupt_while_reading_ends_at_once_with_130_and_leaves_the_old_file() {
         let place = Place::with("fit.json", "old");

@@ -145,7 +145,7 @@ pub enum Error {
         why: &'static str,
     },
     /// A value outside its range: a weight of 2.5, degree 0, a negative residual.
-    #[error("{what} is {value:?}; {rule}")]
+    #[error("{what} is {}; {rule}", plain(*value))]
     OutOfRange {
         /// The option or list entry, such as `iteration weight 7`.
         what: String,
@@ -292,4 +292,10 @@ impl Error {
             other => other,
         }
     }
+}
+
+/// A value as short as it can be told: whole numbers without a point.
+fn plain(value: f64) -> String {
+    let text = format!("{value:?}");
+    text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
 }

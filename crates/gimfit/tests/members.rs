@@ -251,3 +251,37 @@ fn foot_points_of_bezier_curves_and_surfaces_go_on_by_default() {
         assert!(run.max_residual < 0.1 * run.history[0].max_residual, "degree {degree}");
     }
 }
+
+/// Once only bases without a band said that total positivity is absent.
+#[test]
+fn methods_that_rest_on_total_positivity_say_when_a_closed_curve_has_none() {
+    // Nine points, the longest step 174 times the shortest.
+    let steps = [1.0, 174.0, 2.0, 60.0, 1.0, 90.0, 3.0, 1.0, 120.0];
+    let whole: f64 = steps.iter().sum();
+    let mut at = 0.0;
+    let mut uneven = Vec::new();
+    for step in steps {
+        let s: f64 = std::f64::consts::TAU * at / whole;
+        uneven.push([s.cos(), s.sin()]);
+        at += step;
+    }
+    let cautions = |points: &[[f64; 2]], degree, method| {
+        let options =
+            CurveOptions { closed: true, degree, method, iterations: 3, ..Default::default() };
+        let run = fit_curve(points, &options).unwrap().report.run;
+        run.choices
+            .iter()
+            .filter(|choice| choice.starts_with("caution: the curve is closed"))
+            .count()
+    };
+    for method in
+        [Method::Pia, Method::Weighted, Method::GaussSeidel, Method::Sor, Method::Chebyshev]
+    {
+        assert_eq!(cautions(&uneven, 5, method), 1, "{method:?}");
+    }
+    for method in [Method::Auto, Method::Anderson { memory: None }] {
+        assert_eq!(cautions(&uneven, 5, method), 0, "{method:?}");
+    }
+    // Even steps: the diagonal dominates, which is enough.
+    assert_eq!(cautions(&loop_of(20), 3, Method::Pia), 0);
+}

@@ -103,7 +103,6 @@ pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
     let view = PointsView::new(table.dimension(), &table.coordinates)
         .map_err(|error| explain(error, &table))?;
     let mut progress = Progress::new(arguments.writing.quiet, options.iterations);
-    signal::enter(Stage::Fitting);
     let clock = Instant::now();
     let result = match &recipe {
         Recipe::Interpolate => {

@@ -5,7 +5,7 @@ use crate::arguments::{
     ConvexChoice, CurveArguments, DuplicatesChoice, InputArguments, KnotRule, ParameterRule,
     RuleOrFile, ShapeArguments,
 };
-use crate::basis::{basis, ensure_no_foot_points, only_b_splines};
+use crate::basis::{basis, ensure_document_holds, ensure_no_foot_points, only_b_splines};
 use crate::input;
 use crate::method::{ensure_kept_fits_fit, method, only, weight, weight_file};
 use anyhow::{bail, ensure};
@@ -61,6 +61,7 @@ impl Plan {
             &table.source,
         )?;
         if basis.is_some() {
+            ensure_document_holds(table.rows(), "points", &table.source)?;
             ensure_no_foot_points(method)?;
             let chosen = arguments.convex.is_some();
             only_b_splines("--convex", chosen, "other bases are fitted as they are")?;

@@ -130,6 +130,10 @@ fn listed(names: &[String]) -> String {
 
 /// The row of a fitted point, as the file numbers it.
 fn place(job: &Job<'_>, fitted: usize) -> String {
+    // Edits count from 1, and so do the points that they leave.
+    if !job.edits.is_empty() {
+        return format!("point {}", fitted + 1);
+    }
     let row = job.fit.kept_points.as_ref().map_or(fitted, |kept| kept[fitted]);
     job.table.row_name(row)
 }

@@ -1,103 +1,151 @@
 //! The same for grids: each direction, and both at once.
 
 use super::{json, print};
-use crate::arguments::{
-    BasisChoice, DiagnoseArguments, DuplicatesChoice, ParameterRule, RuleOrFile,
-};
-use crate::curve::knot_placement;
+use crate::arguments::DiagnoseGridArguments;
+use crate::basis::described;
+use crate::input::check_standard_input;
 use crate::report_text::Lines;
+use crate::surface::{Form, explain, form, form_inputs};
 use crate::{Ending, output};
-use anyhow::{anyhow, bail, ensure};
-use gimfit::{GridView, Parameterization, SurfaceDiagnosis, SurfaceOptions, diagnose_surface};
-use gimfit_io::grids::{GridOptions, PointGrid, read_grid};
+use gimfit::diagnosis::Diagnosis;
+use gimfit::{
+    BlendingSurfaceOptions, GridView, SurfaceDiagnosis, SurfaceOptions, diagnose_blending_surface,
+    diagnose_surface,
+};
+use gimfit_io::grids::PointGrid;
 use serde_json::json;
 
-pub(super) fn run(arguments: &DiagnoseArguments) -> anyhow::Result<Ending> {
-    let (input, shape) = (&arguments.input, &arguments.shape);
-    ensure!(input.format.is_none(), "--format names formats of points; a grid's is recognised");
-    ensure!(shape.basis == BasisChoice::BSpline, "--grid goes with --basis b-spline");
-    ensure!(shape.duplicates == DuplicatesChoice::Error, "--duplicates is for points, not grids");
-    let parameterization = match &shape.parameters {
-        None => None,
-        Some(RuleOrFile::Rule(ParameterRule::Chord)) => Some(Parameterization::Chord),
-        Some(RuleOrFile::Rule(ParameterRule::Centripetal)) => Some(Parameterization::Centripetal),
-        Some(RuleOrFile::Rule(ParameterRule::Uniform)) => Some(Parameterization::Uniform),
-        Some(_) => bail!("--parameters of a grid: chord, centripetal or uniform"),
-    };
-    let placement = shape.knots.as_ref().map(knot_placement).transpose()?;
-    let degree = shape.degree.unwrap_or(3);
-    let options = SurfaceOptions {
-        degrees: [degree; 2],
-        closed: [shape.closed; 2],
-        parameterizations: [parameterization.clone(), parameterization],
-        knot_placements: [placement.clone(), placement],
-        residual: arguments.tolerance,
-        ..SurfaceOptions::default()
-    };
-    let reading = GridOptions {
-        columns: (!input.columns.is_empty()).then(|| input.columns.clone()),
-        delimiter: input.delimiter,
-        decimal: input.decimal,
-        ..GridOptions::default()
-    };
-    let grid = read_grid(&input.points, &reading)?;
-    let explain = |error| anyhow!("{}: {error}", grid.source);
+/// A diagnosis with the grid it is of.
+struct Case<'a> {
+    grid: &'a PointGrid,
+    found: &'a SurfaceDiagnosis,
+    options: &'a SurfaceOptions,
+    /// Names of bases that are no B-splines.
+    bases: Option<[String; 2]>,
+    remarks: &'a [String],
+}
+
+const DIRECTIONS: [(&str, &str); 2] = [("u", "row"), ("v", "column")];
+
+pub(crate) fn run(arguments: &DiagnoseGridArguments) -> anyhow::Result<Ending> {
+    check_standard_input(&form_inputs(&arguments.grid))?;
+    let Form { grid, options, bases, remarks } = form(&arguments.grid)?;
+    let options = SurfaceOptions { residual: arguments.tolerance, ..options };
+    let explain = |error| explain(error, &grid);
     let view = GridView::new([grid.rows, grid.columns], grid.dimension(), &grid.coordinates)
         .map_err(explain)?;
-    let found = diagnose_surface(view, &options).map_err(explain)?;
+    let found = match &bases {
+        None => diagnose_surface(view, &options),
+        Some([u, v]) => {
+            let options = BlendingSurfaceOptions {
+                parameterizations: options.parameterizations.clone(),
+                residual: options.residual,
+                ..BlendingSurfaceOptions::default()
+            };
+            diagnose_blending_surface(view, [&**u, &**v], &options)
+        }
+    };
+    let found = found.map_err(explain)?;
+    let bases = bases.as_ref().map(|bases| bases.each_ref().map(|basis| described(&**basis)));
+    let case = Case { grid: &grid, found: &found, options: &options, bases, remarks: &remarks };
     if arguments.json {
-        output::data(&(value(&grid, &found).to_string() + "\n"))?;
+        output::data(&(value(&case).to_string() + "\n"))?;
     } else {
-        output::text(&report(&grid, &found))?;
+        output::text(&report(&case))?;
     }
     Ok(Ending::Done)
 }
 
-fn report(grid: &PointGrid, found: &SurfaceDiagnosis) -> String {
+fn report(case: &Case<'_>) -> String {
+    let Case { grid, found, options, bases, remarks } = case;
     let mut lines = Lines::new(&grid.source, grid.title.as_deref());
     let [rows, columns] = found.points;
     lines.add("read", &format!("{rows} x {columns} points of dimension {}", grid.dimension()));
     lines.add_all("", &grid.notes);
-    lines.add_all("chosen", &found.choices);
-    let names = [("u", "row"), ("v", "column")];
-    for ((name, line), matrix) in names.into_iter().zip(&found.directions) {
+    let closed = match options.closed {
+        [false, false] => "open",
+        [true, false] => "closed in u",
+        [false, true] => "closed in v",
+        [true, true] => "closed in u and v",
+    };
+    let [p, q] = found.degrees;
+    let names = bases.as_ref().map(|[u, v]| format!("{u} in u, {v} in v, ")).unwrap_or_default();
+    lines.add("surface", &format!("{names}degrees {p} and {q}, {closed}"));
+    lines.add_all("chosen", &[remarks, found.choices.as_slice()].concat());
+    for ((name, line), matrix) in DIRECTIONS.into_iter().zip(&found.directions) {
         lines.add_all(name, &print::spectrum(matrix));
         lines.add_all("", &print::proofs(matrix));
-        if let Some(place) = matrix.slowest {
-            let [point, from, to] =
-                [place.point, place.shortest, (place.shortest + 1) % matrix.points];
-            lines.add(
-                "",
-                &format!(
-                    "residuals fall slowest at {line} {}; shortest step there from {line} {} to {}, \
-                     the longest {} times as long",
-                    point + 1,
-                    from + 1,
-                    to + 1,
-                    print::number(place.ratio)
-                ),
-            );
-        }
+        lines.add("", &place(matrix, line));
+        let condition = condition(matrix.condition.value, matrix.condition.exact);
+        lines.add("", &format!("condition {condition}"));
     }
-    lines.add(
-        "steps",
-        &format!(
-            "to a residual of {:.3e}; the largest of the start is {:.3e}; from rates alone",
-            found.residual_target, found.first_residual
-        ),
-    );
+    lines.add("weight", &weight(found));
+    let exact = found.directions.iter().all(|matrix| matrix.condition.exact);
+    let both = condition(found.condition, exact);
+    lines.add("condition", &format!("{both}, both directions together"));
+    lines.add_all("steps", &target(found));
     let head =
         |what: &str| format!("{what:<14}{:>12}{:>16}{:>14}", "weight", "a step leaves", "steps");
     lines.add("", &head("both at once"));
     lines.add_all("", &found.at_once.iter().map(print::row).collect::<Vec<_>>());
-    for ((name, _), matrix) in names.into_iter().zip(&found.directions) {
+    for ((name, _), matrix) in DIRECTIONS.into_iter().zip(&found.directions) {
         lines.add("", &head(&format!("{name} alone")));
         lines.add_all("", &matrix.forecasts.iter().map(print::row).collect::<Vec<_>>());
     }
     lines.finish()
 }
 
-fn value(grid: &PointGrid, found: &SurfaceDiagnosis) -> serde_json::Value {
+/// Where residuals fall slowest.
+fn place(matrix: &Diagnosis, line: &str) -> String {
+    let Some(place) = matrix.slowest else { return "no place is slower than others".into() };
+    let [point, from, to] = [place.point, place.shortest, (place.shortest + 1) % matrix.points];
+    format!(
+        "residuals fall slowest at {line} {}; shortest step there from {line} {} to {}, the longest {} \
+         times as long",
+        point + 1,
+        from + 1,
+        to + 1,
+        print::number(place.ratio)
+    )
+}
+
+fn condition(value: f64, exact: bool) -> String {
+    format!("{}{} in the maximum norm", if exact { "" } else { "at least " }, print::number(value))
+}
+
+fn weight(found: &SurfaceDiagnosis) -> String {
+    let whole = |matrix: &Diagnosis| matrix.total_positivity.holds();
+    match found.lemma2_weight {
+        Some(omega) => format!(
+            "of Chen, Wang and Jin 2012, Lemma 2, for both at once: {}{}",
+            print::number(omega),
+            if found.directions.iter().all(whole) {
+                ", as all eigenvalues lie in (0, 1]"
+            } else {
+                ", from the products of all eigenvalues"
+            }
+        ),
+        None => "that of Lemma 2 is not known for both at once, or no weight converges".into(),
+    }
+}
+
+fn target(found: &SurfaceDiagnosis) -> Vec<String> {
+    let mut list = vec![format!(
+        "to a residual of {:.3e}; the largest of the start is {:.3e}",
+        found.residual_target.max(found.rounding),
+        found.first_residual
+    )];
+    if found.rounding > found.residual_target {
+        list.push(format!(
+            "(the target is {:.3e}, but rounding allows no less with control points this large)",
+            found.residual_target
+        ));
+    }
+    list
+}
+
+fn value(case: &Case<'_>) -> serde_json::Value {
+    let Case { grid, found, options, bases, remarks } = case;
     let directions: Vec<_> = found
         .directions
         .iter()
@@ -111,12 +159,19 @@ fn value(grid: &PointGrid, found: &SurfaceDiagnosis) -> serde_json::Value {
             })
         })
         .collect();
+    let choices = [remarks, found.choices.as_slice()].concat();
     json!({
         "source": grid.source,
         "points": found.points,
+        "degrees": found.degrees,
+        "bases": bases,
+        "closed": options.closed,
         "residual_target": found.residual_target,
         "first_residual": found.first_residual,
-        "choices": found.choices,
+        "rounding": found.rounding,
+        "choices": choices,
+        "condition": found.condition,
+        "lemma2_weight": found.lemma2_weight,
         "directions": directions,
         "methods": found.at_once.iter().map(json::forecast).collect::<Vec<_>>(),
     })

@@ -1,7 +1,7 @@
 //! `gimfit diagnose`: how a fit would go, told before any run.
 
 mod advice;
-mod grid;
+pub(crate) mod grid;
 mod json;
 mod print;
 
@@ -39,9 +39,6 @@ impl Case<'_> {
 }
 
 pub(crate) fn run(arguments: &DiagnoseArguments) -> anyhow::Result<Ending> {
-    if arguments.grid {
-        return grid::run(arguments);
-    }
     let Shape { table, options, basis } = shape(&arguments.input, &arguments.shape)?;
     let options = CurveOptions { residual: arguments.tolerance, ..options };
     let view = PointsView::new(table.dimension(), &table.coordinates)

@@ -22,10 +22,54 @@ Examples:
   gimfit surface heights.csv --move 8,5=4,7,120.5 -o edited.json"
 )]
 pub(crate) struct SurfaceArguments {
+    #[command(flatten)]
+    pub(crate) grid: GridArguments,
+
+    /// Only to say why there is none
+    #[arg(
+        long,
+        hide = true,
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "",
+        value_name = "WAY"
+    )]
+    pub(crate) convex: Option<String>,
+
+    #[command(flatten)]
+    pub(crate) iteration: IterationArguments,
+
+    /// Run the columns to their limit, then the rows, instead of both in every step, with the
+    /// iterations allowed in each; --weight may then give two with a comma between, and a file one
+    /// number per row for u, one per column for v
+    #[arg(long, help_heading = "Iteration")]
+    pub(crate) per_direction: bool,
+
+    /// Move a point of the grid after the fit, such as 8,5=1,2,0.5: only control points nearby move.
+    /// May be given several times
+    #[arg(
+        long = "move",
+        value_name = "ROW,COLUMN=X,Y,...",
+        value_parser = GridMove::read,
+        help_heading = "Edits"
+    )]
+    pub(crate) moves: Vec<GridMove>,
+
+    #[command(flatten)]
+    pub(crate) writing: WritingArguments,
+
+    /// Samples in u and v written to .csv files instead of control points, such as 100x80
+    #[arg(long, value_name = "MxN", value_parser = parse_shape, help_heading = "Writing")]
+    pub(crate) samples: Option<(usize, usize)>,
+}
+
+/// A grid, and what decides its collocation matrices: the same for a fit and a diagnosis.
+#[derive(Debug, Args)]
+pub(crate) struct GridArguments {
     /// File of points in rows and columns: lines of row,column,x,y,z or u,v,x,y,z, a matrix of
     /// heights, an ESRI ASCII grid, NumPy .npy; - for standard input
     #[arg(value_name = "GRID")]
-    pub(crate) grid: PathBuf,
+    pub(crate) file: PathBuf,
 
     /// Rows and columns of a file that does not tell them, such as 20x30
     #[arg(long, value_name = "MxN", value_parser = parse_shape, help_heading = "Reading")]
@@ -54,17 +98,6 @@ pub(crate) struct SurfaceArguments {
     /// Decimal mark of a text file: point or comma
     #[arg(long, value_name = "MARK", help_heading = "Reading")]
     pub(crate) decimal: Option<DecimalMark>,
-
-    /// Only to say why there is none
-    #[arg(
-        long,
-        hide = true,
-        num_args = 0..=1,
-        require_equals = true,
-        default_missing_value = "",
-        value_name = "WAY"
-    )]
-    pub(crate) convex: Option<String>,
 
     /// Degree, or degrees in u and v [default: 3; with other bases than b-spline one less than the
     /// rows and columns]
@@ -107,32 +140,6 @@ pub(crate) struct SurfaceArguments {
     /// ratios count
     #[arg(long, value_name = "FILE", help_heading = "Surface")]
     pub(crate) rational_weights: Option<PathBuf>,
-
-    #[command(flatten)]
-    pub(crate) iteration: IterationArguments,
-
-    /// Run the columns to their limit, then the rows, instead of both in every step, with the
-    /// iterations allowed in each; --weight may then give two with a comma between, and a file one
-    /// number per row for u, one per column for v
-    #[arg(long, help_heading = "Iteration")]
-    pub(crate) per_direction: bool,
-
-    /// Move a point of the grid after the fit, such as 8,5=1,2,0.5: only control points nearby move.
-    /// May be given several times
-    #[arg(
-        long = "move",
-        value_name = "ROW,COLUMN=X,Y,...",
-        value_parser = GridMove::read,
-        help_heading = "Edits"
-    )]
-    pub(crate) moves: Vec<GridMove>,
-
-    #[command(flatten)]
-    pub(crate) writing: WritingArguments,
-
-    /// Samples in u and v written to .csv files instead of control points, such as 100x80
-    #[arg(long, value_name = "MxN", value_parser = parse_shape, help_heading = "Writing")]
-    pub(crate) samples: Option<(usize, usize)>,
 }
 
 fn yes_or_no(text: &str) -> Result<bool, UnknownChoice> {

@@ -7,7 +7,8 @@ mod plan;
 mod print;
 mod save;
 
-pub(crate) use arguments::SurfaceArguments;
+pub(crate) use arguments::{GridArguments, SurfaceArguments};
+pub(crate) use plan::{Form, form, form_inputs};
 
 use crate::Ending;
 use crate::basis::described;
@@ -101,11 +102,10 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
     let read = clock.elapsed().as_secs_f64();
 
     let unused = [&grid.row_abscissae, &grid.column_abscissae].map(Option::is_some) == [true; 2]
-        && arguments.parameters.is_none();
+        && arguments.grid.parameters.is_none();
     let view = GridView::new([grid.rows, grid.columns], grid.dimension(), &grid.coordinates)
         .map_err(|error| explain(error, &grid))?;
     let mut progress = Progress::new(arguments.writing.quiet, options.iterations);
-    signal::enter(Stage::Fitting);
     let clock = Instant::now();
     let result = match &bases {
         None => fit_surface_observed(view, &options, &mut progress).map(|fit| (fit, None)),
@@ -139,7 +139,7 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
 }
 
 /// Errors of the library in the words of the file: points by their row and column.
-fn explain(error: Error, grid: &PointGrid) -> anyhow::Error {
+pub(crate) fn explain(error: Error, grid: &PointGrid) -> anyhow::Error {
     let source = &grid.source;
     match error {
         Error::NotFinite { point, value, .. } => anyhow!(

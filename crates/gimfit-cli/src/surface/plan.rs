@@ -1,8 +1,8 @@
 //! From arguments to a grid and options, with all that can be checked before the run.
 
-use super::arguments::{ClosedChoice, GridParameterRule, SurfaceArguments};
+use super::arguments::{ClosedChoice, GridArguments, GridParameterRule, SurfaceArguments};
 use crate::arguments::{KnotRule, RuleOrFile};
-use crate::basis::{basis, ensure_no_foot_points, only_b_splines};
+use crate::basis::{basis, ensure_document_holds, ensure_no_foot_points, only_b_splines};
 use crate::curve::{degree, knot_placement};
 use crate::input;
 use crate::method::{ensure_kept_fits_fit, method, only_windows, weight, weight_file};
@@ -39,12 +39,7 @@ impl Plan {
              a whole has one",
             arguments.iteration.weight
         );
-        ensure!(
-            matches!(arguments.index_columns.len(), 0 | 2),
-            "--index-columns takes two columns with a comma between: that of the rows, then that of \
-             the columns"
-        );
-        let grid = read_grid(&arguments.grid, &reading(arguments))?;
+        let Form { grid, options, bases, remarks } = form(&arguments.grid)?;
         arguments.ensure_moves_fit()?;
         let numbers = grid.coordinates.len();
         ensure_kept_fits_fit(
@@ -54,36 +49,16 @@ impl Plan {
             &grid.source,
         )?;
         let local = only_windows(&arguments.iteration, [grid.rows, grid.columns], &grid.source)?;
-        let mut remarks = Vec::new();
-        let mut parameterization = |k: usize| -> anyhow::Result<Option<Parameterization>> {
-            let Some(choices) = &arguments.parameters else { return Ok(None) };
-            parameterization(&choices.0[k], k, &grid, &mut remarks).map(Some)
-        };
-        let placement = |k: usize| {
-            arguments.knots.as_ref().map(|choices| knot_placement(&choices.0[k])).transpose()
-        };
-        let bases = blending(arguments, &grid)?;
         if bases.is_some() {
+            ensure_document_holds(grid.rows, "rows of points", &grid.source)?;
+            ensure_document_holds(grid.columns, "columns of points", &grid.source)?;
             ensure_no_foot_points(method)?;
+            let only = !arguments.iteration.only.is_empty();
+            only_b_splines("--only", only, "other bases move all points in every step")?;
+            let moves = !arguments.moves.is_empty();
+            only_b_splines("--move", moves, "other bases are fitted as they are")?;
         }
-        let counts = [(grid.rows, "rows of points"), (grid.columns, "columns of points")];
-        let degree = |k: usize| {
-            let rule = arguments.knots.as_ref().map(|choices| &choices.0[k]);
-            let bezier = rule == Some(&RuleOrFile::Rule(KnotRule::Bezier));
-            let asked = arguments.degree.as_ref().map(|pair| pair.0[k]);
-            let default = SurfaceOptions::default().degrees[k];
-            degree(asked, bezier, counts[k].0, counts[k].1, default, &grid.source)
-        };
         let options = SurfaceOptions {
-            degrees: [degree(0)?, degree(1)?],
-            closed: arguments.closed.each(),
-            parameterizations: [parameterization(0)?, parameterization(1)?],
-            knot_placements: [placement(0)?, placement(1)?],
-            rational_weights: arguments
-                .rational_weights
-                .as_ref()
-                .map(|path| input::numbers(path, "--rational-weights", &[]))
-                .transpose()?,
             method,
             weight,
             least_eigenvalue: arguments.iteration.least_eigenvalue,
@@ -92,26 +67,76 @@ impl Plan {
             iterations: arguments.iteration.iterations,
             residual: arguments.iteration.residual,
             keep: arguments.iteration.keep.clone(),
+            ..options
         };
-        for k in 0..2 {
-            let axes = arguments
-                .parameters
-                .as_ref()
-                .is_some_and(|choices| choices.0[k] == RuleOrFile::Rule(GridParameterRule::Axes));
-            ensure!(
-                !(axes && options.closed[k]),
-                "--parameters axes does not tell where a closed direction returns to its start; \
-                 use chord, uniform or a file of numbers in {}",
-                ["u", "v"][k]
-            );
-        }
         Ok(Self { grid, options, bases, remarks })
     }
 }
 
+/// A grid, with what decides where its points sit.
+pub(crate) struct Form {
+    pub(crate) grid: PointGrid,
+    pub(crate) options: SurfaceOptions,
+    /// What is blended in u and v, if no B-splines are.
+    pub(crate) bases: Option<[Arc<dyn BlendingBasis>; 2]>,
+    pub(crate) remarks: Vec<String>,
+}
+
+/// Reads a grid, with the options that decide where its points sit.
+pub(crate) fn form(arguments: &GridArguments) -> anyhow::Result<Form> {
+    ensure!(
+        matches!(arguments.index_columns.len(), 0 | 2),
+        "--index-columns takes two columns with a comma between: that of the rows, then that of \
+         the columns"
+    );
+    let grid = read_grid(&arguments.file, &reading(arguments))?;
+    let mut remarks = Vec::new();
+    let mut parameterization = |k: usize| -> anyhow::Result<Option<Parameterization>> {
+        let Some(choices) = &arguments.parameters else { return Ok(None) };
+        parameterization(&choices.0[k], k, &grid, &mut remarks).map(Some)
+    };
+    let placement = |k: usize| {
+        arguments.knots.as_ref().map(|choices| knot_placement(&choices.0[k])).transpose()
+    };
+    let bases = blending(arguments, &grid)?;
+    let counts = [(grid.rows, "rows of points"), (grid.columns, "columns of points")];
+    let degree = |k: usize| {
+        let rule = arguments.knots.as_ref().map(|choices| &choices.0[k]);
+        let bezier = rule == Some(&RuleOrFile::Rule(KnotRule::Bezier));
+        let asked = arguments.degree.as_ref().map(|pair| pair.0[k]);
+        let default = SurfaceOptions::default().degrees[k];
+        degree(asked, bezier, counts[k].0, counts[k].1, default, &grid.source)
+    };
+    let options = SurfaceOptions {
+        degrees: [degree(0)?, degree(1)?],
+        closed: arguments.closed.each(),
+        parameterizations: [parameterization(0)?, parameterization(1)?],
+        knot_placements: [placement(0)?, placement(1)?],
+        rational_weights: arguments
+            .rational_weights
+            .as_ref()
+            .map(|path| input::numbers(path, "--rational-weights", &[]))
+            .transpose()?,
+        ..SurfaceOptions::default()
+    };
+    for k in 0..2 {
+        let axes = arguments
+            .parameters
+            .as_ref()
+            .is_some_and(|choices| choices.0[k] == RuleOrFile::Rule(GridParameterRule::Axes));
+        ensure!(
+            !(axes && options.closed[k]),
+            "--parameters axes does not tell where a closed direction returns to its start; \
+             use chord, uniform or a file of numbers in {}",
+            ["u", "v"][k]
+        );
+    }
+    Ok(Form { grid, options, bases, remarks })
+}
+
 /// The bases that are no B-splines, with the options that would contradict them refused.
 fn blending(
-    arguments: &SurfaceArguments,
+    arguments: &GridArguments,
     grid: &PointGrid,
 ) -> anyhow::Result<Option<[Arc<dyn BlendingBasis>; 2]>> {
     let [u, v] = arguments.basis.0;
@@ -124,26 +149,32 @@ fn blending(
         [Some(u), Some(v)] => [u, v],
         _ => bail!(
             "--basis: b-spline in one direction and another basis in the other do not go together; \
-             name two of bernstein, wang-ball, said-ball and dp"
+             name two of bernstein, wang-ball, said-ball and dp, or make a direction Bezier by --knots, \
+             such as --knots averaged,bezier"
         ),
     };
     only_b_splines("--degree", arguments.degree.is_some(), "the points give the degrees")?;
     only_b_splines("--knots", arguments.knots.is_some(), "other bases have none")?;
-    only_b_splines(
-        "--rational-weights",
-        arguments.rational_weights.is_some(),
-        "--knots bezier makes a rational Bezier surface of them",
-    )?;
-    let only = !arguments.iteration.only.is_empty();
-    only_b_splines("--only", only, "other bases move all points in every step")?;
-    only_b_splines("--move", !arguments.moves.is_empty(), "other bases are fitted as they are")?;
+    ensure!(
+        arguments.rational_weights.is_none(),
+        "--rational-weights go with any basis of a curve, but of surfaces with --basis b-spline only; \
+         --knots bezier makes a rational Bezier surface of them"
+    );
     only_b_splines("--closed", arguments.closed != ClosedChoice::None, "other bases are open")?;
     Ok(Some(bases))
 }
 
 /// The files to read, by the argument that names them.
 pub(super) fn inputs(arguments: &SurfaceArguments) -> Vec<(&str, &Path)> {
-    let mut inputs = vec![("GRID", arguments.grid.as_path())];
+    let mut inputs = form_inputs(&arguments.grid);
+    let weights = arguments.iteration.weight.split(',').map(str::trim);
+    inputs.extend(weights.filter_map(weight_file).map(|path| ("--weight", path)));
+    inputs
+}
+
+/// The same of a diagnosis.
+pub(crate) fn form_inputs(arguments: &GridArguments) -> Vec<(&str, &Path)> {
+    let mut inputs = vec![("GRID", arguments.file.as_path())];
     for choice in arguments.parameters.iter().flat_map(|pair| &pair.0) {
         inputs.extend(file(choice).map(|path| ("--parameters", path)));
     }
@@ -151,8 +182,6 @@ pub(super) fn inputs(arguments: &SurfaceArguments) -> Vec<(&str, &Path)> {
         inputs.extend(file(choice).map(|path| ("--knots", path)));
     }
     inputs.extend(arguments.rational_weights.as_deref().map(|path| ("--rational-weights", path)));
-    let weights = arguments.iteration.weight.split(',').map(str::trim);
-    inputs.extend(weights.filter_map(weight_file).map(|path| ("--weight", path)));
     // One file for both directions is read twice, which standard input cannot be.
     inputs.dedup_by(|a, b| a == b && !is_standard(a.1));
     inputs
@@ -177,7 +206,7 @@ fn surface_weight(text: &str) -> anyhow::Result<SurfaceWeight> {
     })
 }
 
-fn reading(arguments: &SurfaceArguments) -> GridOptions {
+fn reading(arguments: &GridArguments) -> GridOptions {
     let index_columns = match arguments.index_columns.as_slice() {
         [row, column] => Some((row.clone(), column.clone())),
         _ => None,

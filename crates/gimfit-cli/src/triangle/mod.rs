@@ -86,7 +86,6 @@ pub(crate) fn run(arguments: &TriangleArguments) -> anyhow::Result<Ending> {
     let view = PointsView::new(table.dimension(), &table.coordinates)
         .map_err(|error| explain(error, &table))?;
     let mut progress = Progress::new(arguments.writing.quiet, options.iterations);
-    signal::enter(Stage::Fitting);
     let clock = Instant::now();
     let result = fit_triangular_patch_observed(view, degree, &options, &mut progress);
     let fitted = clock.elapsed().as_secs_f64();

@@ -60,7 +60,8 @@ pub(super) struct CellPlace {
 #[derive(Debug, Default)]
 pub(super) struct Tally {
     holes: usize,
-    first_hole: Option<CellPlace>,
+    /// The first of them, as many as a message names.
+    named: Vec<CellPlace>,
     vanished: usize,
 }
 
@@ -93,7 +94,9 @@ impl Tally {
 
     fn hole(&mut self, place: CellPlace) -> f64 {
         self.holes += 1;
-        self.first_hole.get_or_insert(place);
+        if self.named.len() < MOST_NAMED {
+            self.named.push(place);
+        }
         f64::NAN
     }
 
@@ -104,21 +107,34 @@ impl Tally {
 
     /// Fails if one of `cells` cells held no height.
     pub(super) fn refuse_holes(&self, cells: usize, source: &str) -> Result<(), ReadError> {
-        if let Some(CellPlace { line, cell, row, column }) = self.first_hole {
-            let name = format!("row {}, column {} of the grid", row + 1, column + 1);
-            let problem = Problem::Malformed(holes(self.holes, cells, &name));
-            return Err(ReadError::line(source, line, problem).in_column(cell, &[]));
+        if let Some(CellPlace { line, cell, .. }) = self.named.first() {
+            let name =
+                |place: &CellPlace| format!("row {}, column {}", place.row + 1, place.column + 1);
+            let names: Vec<String> = self.named.iter().map(name).collect();
+            let problem = Problem::Malformed(holes(self.holes, cells, &names));
+            return Err(ReadError::line(source, *line, problem).in_column(*cell, &[]));
         }
         Ok(())
     }
 }
 
-/// The sentence about cells without a value; `first` names the first.
-pub(super) fn holes(holes: usize, cells: usize, first: &str) -> String {
+/// Most cells that a message names.
+pub(super) const MOST_NAMED: usize = 10;
+
+/// The first names of so many, and how many more there are.
+pub(super) fn list(names: &[String], count: usize) -> String {
+    let more = count - names.len();
+    let rest = if more > 0 { format!("; and {more} more") } else { String::new() };
+    names.join("; ") + &rest
+}
+
+/// The sentence about cells without a value; `names` names the first.
+pub(super) fn holes(holes: usize, cells: usize, names: &[String]) -> String {
     let verb = if holes == 1 { "holds" } else { "hold" };
     format!(
-        "{holes} of {cells} cells {verb} no data, the first of them {first}; holes cannot be fitted yet: fill \
-         them in or cut out a part without them"
+        "{holes} of {cells} cells {verb} no data ({}); holes cannot be fitted yet: fill them in or cut \
+         out a part without them",
+        list(names, holes)
     )
 }
 

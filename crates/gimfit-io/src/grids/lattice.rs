@@ -1,5 +1,6 @@
 //! Points with two labels each, put in the rows and columns of a grid.
 
+use super::heights::{MOST_NAMED, list};
 use std::collections::HashMap;
 
 use crate::points::{Place, Problem, ReadError};
@@ -159,15 +160,19 @@ pub(super) fn place(
         }
         *here = at;
     }
-    if let Some(first) = point.iter().position(|at| *at == NONE).filter(|_| !keep_holes) {
-        let missing = point.iter().filter(|at| **at == NONE).count();
+    let missing = point.iter().filter(|at| **at == NONE).count();
+    if missing > 0 && !keep_holes {
+        let holes = (0..size).filter(|&at| point[at] == NONE).take(MOST_NAMED);
+        let name = |at: usize| {
+            format!("{}, {}", rows.label(at / columns.count), columns.label(at % columns.count))
+        };
+        let names: Vec<String> = holes.map(name).collect();
         return fail(
             Place::File,
             format!(
-                "there is no line for {}, {} ({missing} of the {size} points of the grid are \
-                 missing); a grid needs them all",
-                rows.label(first / columns.count),
-                columns.label(first % columns.count),
+                "there is no line for {} ({missing} of the {size} points of the grid are missing); a \
+                 grid needs them all",
+                list(&names, missing)
             ),
         );
     }

@@ -6,7 +6,7 @@
 //! could as well be a list of points.
 
 use super::grid::{GridFormat, GridLines, PointGrid};
-use super::heights::{Heights, holes, indices};
+use super::heights::{Heights, MOST_NAMED, holes, indices};
 use super::options::GridOptions;
 use crate::points::columns::{MOST_COLUMNS, Offer, select};
 use crate::points::error::column_name;
@@ -166,7 +166,7 @@ impl Values<'_> {
     /// Fails if a value of the coordinates `wanted` is not finite; holes may be kept.
     fn check(&mut self, wanted: &[usize], keep_holes: bool) -> Result<(), String> {
         let mut missing = 0;
-        let mut first = String::new();
+        let mut names = Vec::new();
         for at in 0..self.rows * self.columns {
             let mut hole = false;
             for k in wanted {
@@ -183,8 +183,8 @@ impl Values<'_> {
                 if value.is_infinite() {
                     return Err(format!("the value at {place} is {value}, not a finite number"));
                 }
-                if missing == 0 && !hole {
-                    first = place;
+                if !hole && names.len() < MOST_NAMED {
+                    names.push(place);
                 }
                 hole = true;
             }
@@ -194,7 +194,7 @@ impl Values<'_> {
         match missing {
             0 => Ok(()),
             _ if keep_holes => Ok(()),
-            _ => Err(holes(missing, self.rows * self.columns, &first)),
+            _ => Err(holes(missing, self.rows * self.columns, &names)),
         }
     }
 }

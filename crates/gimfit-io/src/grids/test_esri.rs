@@ -35,9 +35,7 @@ fn line_ends_among_the_heights_mean_nothing() {
 fn cells_without_data_are_counted_and_the_first_is_named() {
     let error = read(&format!("{HEAD}NODATA_value -9999\n1 2 3\n4 -9999.0 nan\n")).unwrap_err();
     assert!(
-        error.starts_with(
-            "f.asc, line 8, column 2: 2 of 6 cells hold no data, the first of them row 2"
-        ),
+        error.starts_with("f.asc, line 8, column 2: 2 of 6 cells hold no data (row 2"),
         "{error}"
     );
 }

@@ -71,13 +71,23 @@ fn holes_are_counted_and_the_first_is_named() {
     let error = read(",0,1,2\n0,5,6,7\n1,5,,nan\n2,NA,6,-\n").unwrap_err();
     assert_eq!(
         error,
-        "f.csv, line 3, column 3: 4 of 9 cells hold no data, the first of them row 2, column 2 of \
-         the grid; holes cannot be fitted yet: fill them in or cut out a part without them"
+        "f.csv, line 3, column 3: 4 of 9 cells hold no data (row 2, column 2; row 2, column 3; row \
+         3, column 1; row 3, column 3); holes cannot be fitted yet: fill them in or cut out a part without them"
     );
     let error = read(",0,1\n,5,6\n1,5,6\n").unwrap_err();
     assert!(error.starts_with("f.csv"), "{error}");
     let error = read(",0,1\n0,5,6\n,5,6\n").unwrap_err();
     assert!(error.starts_with("f.csv, line 3, column 1: the cell is empty"), "{error}");
+}
+
+#[test]
+fn ten_holes_are_named_and_the_rest_are_counted() {
+    let error = read(&",,,,\n".repeat(3).replacen(",,,,", "1,2,3,4,5", 1)).unwrap_err();
+    assert!(error.contains("10 of 15 cells"), "{error}");
+    assert!(!error.contains("more"), "{error}");
+    let error = read(&",,,,\n".repeat(4).replacen(",,,,", "1,2,3,4,5", 1)).unwrap_err();
+    assert!(error.contains("15 of 20 cells"), "{error}");
+    assert!(error.contains("row 3, column 5; and 5 more)"), "{error}");
 }
 
 #[test]

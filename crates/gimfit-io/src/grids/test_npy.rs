@@ -76,9 +76,9 @@ fn values_that_are_not_finite_are_counted_and_named() {
     let mut values = count(16);
     (values[6], values[9]) = (f64::NAN, f64::NAN);
     let error = read(&file(false, "(4, 4)", &values), None).unwrap_err();
-    assert!(error.contains("2 of 16 cells hold no data, the first of them [1, 2]"), "{error}");
+    assert!(error.contains("2 of 16 cells hold no data ([1, 2]; "), "{error}");
     let error = read(&file(false, "(2, 2, 4)", &values), None).unwrap_err();
-    assert!(error.contains("2 of 4 cells hold no data, the first of them [0, 1, 2]"), "{error}");
+    assert!(error.contains("2 of 4 cells hold no data ([0, 1, 2]; "), "{error}");
     values[3] = f64::INFINITY;
     let error = read(&file(false, "(4, 4)", &values), None).unwrap_err();
     assert!(error.contains("[0, 3] is inf"), "{error}");

@@ -180,35 +180,56 @@ impl Course {
     }
 }
 
-/// The same for a rule with memory, step by step: `None` after `most` steps, which is not the end.
-pub(super) fn steps_taken(
-    window: &Window,
+/// How far a rehearsal came.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Rehearsed {
+    /// The step in which the largest residual fell to the tolerance.
+    pub(crate) end: Option<u64>,
+    /// Whether residuals rose so far, or so long, that a run gives up.
+    pub(crate) stalls: bool,
+    /// Steps rehearsed, and the largest residual they left.
+    pub(crate) taken: u64,
+    pub(crate) left: f64,
+}
+
+/// Follows difference vectors step by step, for rules with memory and operators that are no small
+/// matrix: a rule that is given no control points leaves `R - A W R`.
+pub(crate) fn rehearse(
+    operator: &dyn CollocationOperator,
+    start: Start<'_>,
     rule: &mut dyn UpdateRule,
     most: usize,
-) -> Option<(Option<u64>, bool)> {
-    let dimension = window.dimension;
-    let mut vectors = window.vectors.clone();
+) -> Rehearsed {
+    let dimension = start.dimension;
+    let mut vectors = start.difference_vectors.to_vec();
     let control = vec![0.0; vectors.len()];
     let mut change = control.clone();
     let mut adjusting = control.clone();
     let (mut first, mut best, mut best_step) = (f64::INFINITY, f64::INFINITY, 0);
+    let mut found = Rehearsed { end: None, stalls: false, taken: 0, left: f64::INFINITY };
     for iteration in 0..=most {
         let (now, step) = (largest_norm(&vectors, dimension), iteration as u64);
-        if now <= window.tolerance {
-            return Some((Some(step), false));
+        (found.taken, found.left) = (step, now);
+        if now <= start.tolerance {
+            found.end = Some(step);
+            break;
         }
         first = if iteration == 0 { now } else { first };
         if now < best {
             (best, best_step) = (now, step);
         } else if now.is_nan() || now > DIVERGENCE * first || step - best_step >= PATIENCE {
-            return Some((None, true));
+            found.stalls = true;
+            break;
+        }
+        if iteration == most {
+            break;
         }
         adjusting.copy_from_slice(&vectors);
         rule.adjust(Step { iteration, control: &control, dimension }, &mut adjusting);
-        window.matrix.apply(&adjusting, dimension, &mut change);
+        operator.apply(&adjusting, dimension, &mut change);
         vectors.iter_mut().zip(&change).for_each(|(x, change)| *x -= change);
     }
-    None
+    found
 }
 
 /// `A B` for a square `A` and rows of `B` of a length.

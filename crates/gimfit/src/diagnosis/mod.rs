@@ -20,7 +20,8 @@ use crate::collocation::{
 };
 use crate::iteration::UpdateRule;
 use crate::iteration::update::{Chebyshev, GaussSeidel, Jacobi, Pia, Sor, Weighted};
-use forecast::{Window, WindowForecast, forecast, largest_norm, steps_taken};
+pub(crate) use forecast::rehearse;
+use forecast::{Window, WindowForecast, forecast, largest_norm};
 
 /// Points up to which the whole matrix is one window, and all its eigenvalues are found.
 pub const WHOLE: usize = 160;
@@ -303,16 +304,45 @@ fn chebyshev(windows: &[Window], least: f64, smallest: f64) -> Forecast {
         let (found, stalled) = if window.vectors.is_empty() || rate >= 1.0 {
             (None, false)
         } else {
-            steps_taken(window, &mut rule, MOST_REHEARSED).unwrap_or_else(|| {
+            let start = Start {
+                difference_vectors: &window.vectors,
+                dimension: window.dimension,
+                tolerance: window.tolerance,
+            };
+            let seen = rehearse(&window.matrix, start, &mut rule, MOST_REHEARSED);
+            if seen.end.is_some() || seen.stalls {
+                (seen.end, seen.stalls)
+            } else {
                 let first = largest_norm(&window.vectors, window.dimension);
                 (steps_at_rate(2.0 * first, window.tolerance, rate), false)
-            })
+            }
         };
         stalls |= stalled;
         iterations = iterations.zip(found).map(|(a, b): (u64, u64)| a.max(b));
     }
     let (spectrum, weight) = ((smallest, 1.0), Some(least));
     Forecast { method: "chebyshev", weight, rate, growth: 1.0, iterations, stalls, spectrum }
+}
+
+/// Points in each direction up to which the weights of a product are worth all its eigenvalues.
+const FEW_LINES: usize = 64;
+
+/// The weight of Lemma 2 for a Kronecker product, and, where a direction is not totally positive and
+/// eigenvalues are few, the best single weight with its rate; `None` where it is not known, or no
+/// weight converges.
+#[must_use]
+pub fn product_weights(directions: [&Diagnosis; 2]) -> (Option<f64>, Option<(f64, f64)>) {
+    let [u, v] = directions;
+    if u.total_positivity.holds() && v.total_positivity.holds() {
+        return (Some(1.0), None);
+    }
+    let Some((of_u, of_v)) = u.eigenvalues.as_ref().zip(v.eigenvalues.as_ref()) else {
+        return (None, None);
+    };
+    let all: Vec<Eigenvalue> =
+        of_u.iter().flat_map(|a| of_v.iter().map(move |b| a.times(*b))).collect();
+    let few = u.points.max(v.points) <= FEW_LINES;
+    (lemma2_weight(&all), if few { best_weight(&all) } else { None })
 }
 
 /// Forecasts for a Kronecker product, whose eigenvalues are products, with rules that act in both
@@ -340,7 +370,8 @@ pub fn at_once(directions: [&Diagnosis; 2]) -> Vec<Forecast> {
     };
     let spread = |(low, high): (f64, f64)| (1.0 - low).abs().max((1.0 - high).abs());
     let least = directions[0].smallest.for_weights() * directions[1].smallest.for_weights();
-    let omega = Weighted::best_for(least);
+    let best = product_weights(directions).1;
+    let omega = best.map_or_else(|| Weighted::best_for(least), |(omega, _)| omega);
     let (low, high) = product("pia");
     let root = least.sqrt();
     vec![

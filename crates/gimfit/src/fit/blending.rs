@@ -208,6 +208,9 @@ pub(super) fn collocate(
     if equal && parameterization.needs_distinct_points() {
         return Err(Error::AllPointsEqual { points: points.len() });
     }
+    if equal {
+        choices.push("caution: all points are equal; the curve is one point".into());
+    }
     let parameters = assign_parameters(points, false, &parameterization)?;
     let parameters = onto_domain(parameters, basis, &parameterization, "", choices)?;
     let operator = DenseCollocation::new(basis, &parameters)?;

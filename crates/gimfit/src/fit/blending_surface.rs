@@ -183,13 +183,13 @@ pub fn fit_blending_surface_observed(
 }
 
 /// What one direction brings along.
-struct Direction {
-    parameters: Parameters,
-    operator: DenseCollocation,
+pub(super) struct Direction {
+    pub(super) parameters: Parameters,
+    pub(super) operator: DenseCollocation,
     parameterization: &'static str,
 }
 
-fn direction(
+pub(super) fn direction(
     view: GridView<'_>,
     k: usize,
     basis: &dyn BlendingBasis,

@@ -31,7 +31,7 @@ pub(super) fn choose<'a>(
     gradual: usize,
 ) -> Result<ChosenRule<'a>, Error> {
     check_weight(method, weight, operator.points())?;
-    let mut choices = Vec::new();
+    let mut choices = Vec::from_iter(positivity_caution(operator, method, ""));
     let mut eigenvalue = None;
     let mut smallest = || -> Result<f64, Error> {
         let bounds = smallest_eigenvalue_of(operator)?;
@@ -123,8 +123,49 @@ pub(super) fn choose_adaptive<'a>(
             why: "points are frozen once they are within the residual; give one above 0",
         });
     }
+    let caution = |matrix, place| positivity_caution(matrix, Method::Adaptive, place);
+    let choices = match rows {
+        AdaptiveRows::Curve(matrix) => Vec::from_iter(caution(matrix, "")),
+        AdaptiveRows::Grid([u, v]) => {
+            caution(u, " in u").into_iter().chain(caution(v, " in v")).collect()
+        }
+    };
     let rule = Box::new(Adaptive::new(rows, residual));
-    Ok(ChosenRule { rule, name: "adaptive", choices: Vec::new(), smallest_eigenvalue: None })
+    Ok(ChosenRule { rule, name: "adaptive", choices, smallest_eigenvalue: None })
+}
+
+/// What a method rests on and the matrix of a closed curve does not offer: in general it has a negative
+/// minor, and where the diagonal does not dominate the rows either, nothing proves that the method
+/// converges. `place` is empty, or names the direction. Bases without a band have their own.
+pub(super) fn positivity_caution(
+    operator: &dyn CollocationMatrix,
+    method: Method,
+    place: &str,
+) -> Option<String> {
+    let rests = matches!(
+        method,
+        Method::Pia
+            | Method::Local
+            | Method::Adaptive
+            | Method::Weighted
+            | Method::GaussSeidel
+            | Method::Sor
+            | Method::Chebyshev
+            | Method::Preconditioned { half_bandwidth: Some(_) }
+    );
+    if !rests || operator.is_dense() || operator.is_totally_positive() {
+        return None;
+    }
+    let weak = (0..operator.points()).filter(|&j| operator.diagonal(j) <= 0.5).count();
+    (weak > 0).then(|| {
+        format!(
+            "caution: {}, so that the collocation matrix need not be totally positive, and \
+             its diagonal does not dominate at {weak} of {} points: the convergence of this method is \
+             not proved; auto and anderson do without, and gimfit diagnose tells",
+            if place.is_empty() { "the curve is closed".into() } else { format!("closed{place}") },
+            operator.points()
+        )
+    })
 }
 
 /// Geometric interpolation is no rule for a matrix that stays; the recipes that know it run it on an

@@ -34,7 +34,7 @@ pub use blending_surface::{
 };
 pub use curve::{CurveFit, fit_curve, fit_curve_observed, interpolate};
 pub use diagnose::{CurveDiagnosis, diagnose_blending_curve, diagnose_curve};
-pub use diagnose_surface::{SurfaceDiagnosis, diagnose_surface};
+pub use diagnose_surface::{SurfaceDiagnosis, diagnose_blending_surface, diagnose_surface};
 pub use edit::{EditReport, EditableCurve, EditableSurface, SurfaceEditReport};
 pub use keep::{KeptFit, KeptFootPoints};
 pub use least_squares::{

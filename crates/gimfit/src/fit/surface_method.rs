@@ -1,6 +1,8 @@
 //! From a named method to a rule on a grid of points.
 
-use super::method::{ChosenRule, NO_FOOT_POINTS, anderson, check_weight, choose, weighted, whole};
+use super::method::{
+    ChosenRule, NO_FOOT_POINTS, anderson, check_weight, choose, positivity_caution, weighted, whole,
+};
 use super::{IterationWeight, Method};
 use crate::Error;
 use crate::collocation::{
@@ -40,7 +42,8 @@ pub(super) fn choose_both<'a>(
     check_weight(method, weight, directions.points())?;
     let Directions { u, v, rational } = directions;
     let columns = v.points();
-    let mut choices = Vec::new();
+    let mut choices = Vec::from_iter(positivity_caution(u, method, " in u"));
+    choices.extend(positivity_caution(v, method, " in v"));
     let mut eigenvalue = None;
     let mut smallest = || -> Result<f64, Error> {
         if let Some(net) = rational {

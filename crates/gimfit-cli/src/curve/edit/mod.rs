@@ -8,6 +8,7 @@ use crate::Ending;
 use crate::arguments::{BasisChoice, InputArguments, KnotRule, MethodChoice, RuleOrFile};
 use crate::arguments::{ShapeArguments, WritingArguments};
 use crate::explain::explain;
+use crate::family::has_place;
 use crate::finish::{Finish, Run, Sought};
 use crate::outputs::Wanted;
 use crate::report_text::time;
@@ -28,7 +29,7 @@ divides the gap between its neighbours as the chords do (in half where parameter
 given). Knots are averaged ones.
 
 Exit status: 0 done; 1 a residual was not reached (the curve is written all the same); 2 wrong usage \
-or input, nothing written, or a file that could not be written.
+or input, nothing written, or a file that could not be written; 130 interrupted, nothing written.
 
 Examples:
   gimfit edit track.csv --move 120=3.5,-2.25 -o track.json
@@ -66,6 +67,14 @@ pub(crate) struct EditArguments {
 
 pub(crate) fn run(arguments: &EditArguments) -> anyhow::Result<Ending> {
     let EditArguments { input, edits, shape: form, residual, writing, samples } = arguments;
+    for output in &writing.output {
+        ensure!(
+            !has_place(output),
+            "-o {}: gimfit edit writes the curve after all edits and keeps none on the way; name one \
+             file",
+            output.display()
+        );
+    }
     let wanted = Wanted::new(writing, &[], samples.is_some());
     wanted.check(&shape_inputs(input, form))?;
     ensure!(samples.is_none_or(|n| n >= 2), "--samples must be at least 2");
@@ -77,7 +86,6 @@ pub(crate) fn run(arguments: &EditArguments) -> anyhow::Result<Ending> {
     let Shape { mut table, options, .. } = shape(input, form)?;
     let read = clock.elapsed().as_secs_f64();
 
-    signal::enter(Stage::Fitting);
     let clock = Instant::now();
     let view = PointsView::new(table.dimension(), &table.coordinates)
         .map_err(|error| explain(error, &table))?;
