@@ -244,7 +244,13 @@ impl Attempt {
         [point, nearest]: &mut [Vec<f64>; 2],
     ) -> f64 {
         curve.point(self.guard_parameter(guard), point);
-        problem.polyline().nearest(guard.leg, 1, point, nearest) / problem.allowance
+        let polyline = problem.polyline();
+        let ratio = polyline.distance_to_leg(guard.leg, point) / problem.allowance;
+        // Where all is well nobody asks whether a neighbouring leg is nearer still.
+        if ratio <= ALERT {
+            return ratio;
+        }
+        polyline.nearest(guard.leg, 1, point, nearest) / problem.allowance
     }
 
     /// Looks closely at all legs on which the curve could stray, and sets guards where it does.

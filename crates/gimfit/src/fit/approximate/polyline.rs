@@ -21,7 +21,8 @@ impl<'a> Polyline<'a> {
 
     /// Point `j`, counted round a closed polyline.
     pub(super) fn point(&self, j: usize) -> &'a [f64] {
-        &self.data[j % self.points() * self.dimension..][..self.dimension]
+        let j = if j < self.points() { j } else { j % self.points() };
+        &self.data[j * self.dimension..][..self.dimension]
     }
 
     /// Length of leg `j`, from point `j` to the next.
@@ -32,7 +33,7 @@ impl<'a> Polyline<'a> {
     /// Nearest point of leg `leg` and its neighbours to `x`, written into `nearest`; its distance.
     pub(super) fn nearest(&self, leg: usize, reach: usize, x: &[f64], nearest: &mut [f64]) -> f64 {
         let legs = self.legs();
-        let mut best = f64::INFINITY;
+        let (mut best, mut found) = (f64::INFINITY, (leg, 0.0));
         for offset in 0..=2 * reach {
             let leg = if self.closed {
                 (leg + legs * reach + offset - reach) % legs
@@ -42,25 +43,45 @@ impl<'a> Polyline<'a> {
                     _ => continue,
                 }
             };
-            let (a, b) = (self.point(leg), self.point(leg + 1));
-            let (mut along, mut square) = (0.0, 0.0);
-            for i in 0..self.dimension {
-                along += (x[i] - a[i]) * (b[i] - a[i]);
-                square += (b[i] - a[i]) * (b[i] - a[i]);
+            let (square, share) = self.along(leg, x);
+            if square < best {
+                (best, found) = (square, (leg, share));
             }
-            let share = if square > 0.0 { (along / square).clamp(0.0, 1.0) } else { 0.0 };
-            let gap = (0..self.dimension)
-                .map(|i| (x[i] - a[i] - share * (b[i] - a[i])).powi(2))
-                .sum::<f64>();
-            if gap < best {
-                best = gap;
-                for i in 0..self.dimension {
-                    nearest[i] = a[i] + share * (b[i] - a[i]);
-                }
-            }
+        }
+        let (a, b) = (self.point(found.0), self.point(found.0 + 1));
+        for (i, nearest) in nearest.iter_mut().enumerate() {
+            *nearest = a[i] + found.1 * (b[i] - a[i]);
         }
         best.sqrt()
     }
+
+    /// How far `x` is from a leg: no less than from the polyline.
+    pub(super) fn distance_to_leg(&self, leg: usize, x: &[f64]) -> f64 {
+        self.along(leg, x).0.sqrt()
+    }
+
+    /// Squared distance of `x` to a leg, and where on the leg the nearest point is, 0 to 1.
+    fn along(&self, leg: usize, x: &[f64]) -> (f64, f64) {
+        let (a, b) = (self.point(leg), self.point(leg + 1));
+        match self.dimension {
+            2 => along(&a[..2], &b[..2], &x[..2]),
+            3 => along(&a[..3], &b[..3], &x[..3]),
+            d => along(&a[..d], &b[..d], &x[..d]),
+        }
+    }
+}
+
+/// Squared distance of `x` to the leg from `a` to `b`, and the place of the nearest point.
+#[inline(always)] // Into the arms above, where the length is known.
+fn along(a: &[f64], b: &[f64], x: &[f64]) -> (f64, f64) {
+    let (mut along, mut square) = (0.0, 0.0);
+    for i in 0..x.len() {
+        along += (x[i] - a[i]) * (b[i] - a[i]);
+        square += (b[i] - a[i]) * (b[i] - a[i]);
+    }
+    let share = if square > 0.0 { (along / square).clamp(0.0, 1.0) } else { 0.0 };
+    let gap = (0..x.len()).map(|i| (x[i] - a[i] - share * (b[i] - a[i])).powi(2)).sum();
+    (gap, share)
 }
 
 /// How far a local C1 interpolant of the points strays from their polyline: the cubic Hermite
