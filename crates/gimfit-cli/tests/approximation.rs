@@ -29,6 +29,31 @@ fn a_tolerance_is_kept_and_told() {
 }
 
 #[test]
+fn noise_and_outliers_are_left_out_and_told() {
+    // A parabola, noise of 0.01 and a point far off.
+    let noise = |i: i32| f64::from(i * 7919 % 101 - 50) * 3.4e-4;
+    let rows: String = (0..200)
+        .map(|i| {
+            let x = f64::from(i) / 20.0;
+            let off = if i == 77 { 3.0 } else { 0.0 };
+            format!("{},{}\n", x + noise(i * 31 + 7), 0.1 * x * x + noise(i) + off)
+        })
+        .collect();
+    let place = Place::with("noisy.csv", format!("x,y\n{rows}"));
+    let ran = place.run("curve noisy.csv --noise auto --robust tukey -o fit.json").code(0);
+    assert!(ran.out.contains("noise: standard deviation"), "{}", ran.out);
+    assert!(ran.out.contains("1 left out: line 79"), "{}", ran.out);
+    let account = &place.document("fit.json")["report"]["approximation"];
+    assert_eq!(account["outliers"], serde_json::json!([77]));
+    let noise = account["noise"].as_f64().unwrap();
+    assert!((0.005..0.02).contains(&noise), "{noise}");
+    place.run("curve noisy.csv --noise 0.01 --robust huber").code(0);
+    place.run("curve noisy.csv --noise much").code(2).says(&["auto", "standard deviation"]);
+    place.run("curve noisy.csv --robust tukey").code(2);
+    place.run("curve noisy.csv --noise 0").code(2).says(&["standard deviation", "above 0"]);
+}
+
+#[test]
 fn a_number_of_control_points_is_kept() {
     let place = place();
     place.run("curve wave.csv --control-points 9 -o fit.json").code(0);

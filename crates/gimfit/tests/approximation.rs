@@ -4,10 +4,10 @@
 #![allow(clippy::unwrap_used, clippy::panic)] // A test that cannot go on has failed.
 
 use gimfit::{
-    ApproximationOptions, Corners, CurveFit, Error, Goal, PointsView, Termination,
+    ApproximationOptions, Corners, CurveFit, Error, Goal, PointsView, Robust, Termination,
     approximate_curve,
 };
-use gimfit_testkit::textbook;
+use gimfit_testkit::{generate, textbook};
 use proptest::prelude::*;
 
 /// Points of a fitted curve by the textbook's recursion, dense, with no code of the library.
@@ -196,6 +196,111 @@ fn the_root_mean_square_is_kept() {
     assert!(account.met && account.rms_distance <= 0.01 && account.max_distance > 0.01);
 }
 
+/// One turn of a helix and noise of standard deviation 1e-3 in every coordinate.
+fn noisy_helix(count: usize) -> Vec<[f64; 3]> {
+    let mut random = generate::Random::new(11);
+    (0..count)
+        .map(|j| {
+            let t = j as f64 / (count - 1) as f64;
+            helix(t).map(|x| x + 1e-3 * random.normal())
+        })
+        .collect()
+}
+
+fn helix(t: f64) -> [f64; 3] {
+    [(6.0 * t).cos(), (6.0 * t).sin(), t]
+}
+
+#[test]
+fn noise_is_left_out_whether_its_size_is_given_or_not() {
+    for (count, given) in [(200, Some(1e-3)), (800, None), (6000, None)] {
+        let points = noisy_helix(count);
+        let goal = Goal::Noise(given);
+        let fit = approximate_curve(&points, &ApproximationOptions::new(goal)).unwrap();
+        let account = fit.report.approximation.as_ref().unwrap();
+        assert!(account.met, "{count} {given:?}: {account:?}");
+        let noise = account.noise.unwrap();
+        assert!((noise / 1e-3 - 1.0).abs() < 0.1, "{count}: {noise}");
+        assert!(fit.curve.control_points().len() <= 20, "{count} {given:?}");
+        // Closer to the curve behind the noise than the noise itself is.
+        let mut square = 0.0;
+        let samples = dense(&fit, 20);
+        for i in 5..95 {
+            let wanted = helix(f64::from(i) / 100.0);
+            let off = samples
+                .windows(2)
+                .map(|pair| from_segment(&wanted, &pair[0], &pair[1]))
+                .fold(f64::MAX, f64::min);
+            assert!(off < 2e-3, "{count} {given:?} {i}: {off}");
+            square += off * off / 90.0;
+        }
+        assert!(square.sqrt() < 0.8e-3, "{count} {given:?}: {square}");
+    }
+}
+
+#[test]
+fn outliers_are_found_left_out_and_named() {
+    for robust in [Robust::Huber, Robust::Tukey] {
+        for goal in [Goal::Noise(Some(1e-3)), Goal::Tolerance(6e-3)] {
+            let mut points = noisy_helix(1500);
+            let moved = |j: &usize| j % 100 == 7;
+            for j in (0..points.len()).filter(moved) {
+                points[j][0] += 0.05;
+                points[j][2] -= 0.05;
+            }
+            let options =
+                ApproximationOptions { robust: Some(robust), ..ApproximationOptions::new(goal) };
+            let fit = approximate_curve(&points, &options).unwrap();
+            let account = fit.report.approximation.as_ref().unwrap();
+            assert!(account.met && fit.curve.control_points().len() <= 20, "{account:?}");
+            let kept = fit.kept_points.as_ref().unwrap();
+            assert_eq!(kept.len() + account.outliers.len(), points.len());
+            assert!((0..points.len()).filter(moved).all(|j| account.outliers.contains(&j)));
+            // A few beside them may go along.
+            assert!(account.outliers.len() <= 15 + 15, "{:?}", account.outliers);
+        }
+    }
+}
+
+#[test]
+fn a_feature_is_no_outlier() {
+    // A bump of thirty points in a straight line.
+    let points: Vec<[f64; 2]> = (0..300)
+        .map(|j| {
+            let x = f64::from(j);
+            [x, 5.0 * (-((x - 150.0) / 8.0).powi(2)).exp()]
+        })
+        .collect();
+    let options =
+        ApproximationOptions { robust: Some(Robust::Tukey), ..ApproximationOptions::within(0.01) };
+    let fit = approximate_curve(&points, &options).unwrap();
+    let account = fit.report.approximation.as_ref().unwrap();
+    assert!(account.met && account.outliers.is_empty(), "{account:?}");
+}
+
+#[test]
+fn of_many_points_all_are_kept_though_few_are_looked_at() {
+    // A kink between the points looked at first.
+    let points: Vec<[f64; 2]> = (0..20_000)
+        .map(|j| {
+            let x = f64::from(j) / 20_000.0;
+            let spike = if (12_345..12_350).contains(&j) { 0.02 } else { 0.0 };
+            [x, (9.0 * x).sin() + spike]
+        })
+        .collect();
+    let fit = approximate_curve(&points, &ApproximationOptions::within(1e-3)).unwrap();
+    let account = fit.report.approximation.as_ref().unwrap();
+    let samples = dense(&fit, 100);
+    let met = |j: usize| {
+        let near = samples.windows(2).map(|pair| from_segment(&points[j], &pair[0], &pair[1]));
+        near.fold(f64::MAX, f64::min)
+    };
+    let every = (0..points.len()).step_by(97).chain(12_340..12_355);
+    let largest = every.map(met).fold(0.0, f64::max);
+    assert!(largest <= account.max_distance + 1e-5, "{largest} {}", account.max_distance);
+    assert!(account.met && fit.curve.control_points().len() < 60, "{account:?}");
+}
+
 #[test]
 fn bad_requests_are_named() {
     let points = [[0.0, 0.0], [1.0, 1.0], [2.0, 0.0], [3.0, 1.0]];
@@ -204,6 +309,13 @@ fn bad_requests_are_named() {
         let refused = run(ApproximationOptions::within(tolerance));
         assert!(matches!(refused, Err(Error::OutOfRange { .. })), "{tolerance}");
     }
+    for deviation in [0.0, -1.0, f64::NAN] {
+        let refused = run(ApproximationOptions::new(Goal::Noise(Some(deviation))));
+        assert!(matches!(refused, Err(Error::OutOfRange { .. })), "{deviation}");
+    }
+    let line: Vec<[f64; 2]> = (0..50).map(|j| [f64::from(j), 0.0]).collect();
+    let none = approximate_curve(&line, &ApproximationOptions::new(Goal::Noise(None)));
+    assert!(matches!(none, Err(Error::OutOfRange { .. })));
     let few = run(ApproximationOptions::new(Goal::ControlPoints(3)));
     assert!(matches!(few, Err(Error::WrongCount { .. })));
     let high = run(ApproximationOptions { degree: 4, ..ApproximationOptions::within(0.1) });
@@ -259,7 +371,7 @@ fn any_points() -> impl Strategy<Value = (usize, Vec<f64>)> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 40, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 30, ..ProptestConfig::default() })]
 
     #[test]
     fn hostile_points_neither_panic_nor_give_nan(
@@ -267,7 +379,8 @@ proptest! {
         degree in 1_usize..6,
         closed: bool,
         share in 1e-6..0.5_f64,
-        goal in 0..3,
+        goal in 0..5,
+        robust: bool,
     ) {
         let view = PointsView::new(dimension, &data).unwrap();
         let Ok(extent) = gimfit::points::Extent::of(view) else { return Ok(()) };
@@ -275,10 +388,16 @@ proptest! {
         let goal = match goal {
             0 => Goal::Tolerance(distance),
             1 => Goal::Rms(distance),
+            3 => Goal::Noise(None),
+            4 => Goal::Noise(Some(distance)),
             _ => Goal::ControlPoints(degree + 1 + data.len() % 5),
         };
         let options = ApproximationOptions {
-            degree, closed, rounds: Some(60), ..ApproximationOptions::new(goal)
+            degree,
+            closed,
+            rounds: Some(60),
+            robust: robust.then_some(Robust::Huber),
+            ..ApproximationOptions::new(goal)
         };
         if let Ok(fit) = approximate_curve(view, &options) {
             let account = fit.report.approximation.as_ref().unwrap();

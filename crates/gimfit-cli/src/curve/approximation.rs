@@ -3,8 +3,8 @@
 use crate::arguments::{BasisChoice, CurveArguments, DuplicatesChoice, MethodChoice};
 use crate::values;
 use anyhow::{bail, ensure};
-use clap::Args;
-use gimfit::{ApproximationOptions, Corners, CurveOptions, Goal};
+use clap::{Args, ValueEnum};
+use gimfit::{ApproximationOptions, Corners, CurveOptions, Goal, Robust};
 use std::str::FromStr;
 
 /// What interpolation alone has.
@@ -57,10 +57,26 @@ pub(crate) struct ApproximationArguments {
     )]
     pub(crate) rms: Option<f64>,
 
+    /// Leave out noise of this standard deviation in every coordinate, or auto to have it estimated:
+    /// the smoothest curve whose distances from the points are what noise explains
+    #[arg(
+        long,
+        value_name = "SIGMA|auto",
+        allow_negative_numbers = true,
+        group = "goal",
+        conflicts_with_all = OF_INTERPOLATION,
+        help_heading = "Approximation"
+    )]
+    pub(crate) noise: Option<NoiseChoice>,
+
     /// Come as close as can be with this many control points, knots and parameters being sought; with
     /// a method of least squares, such as --method least-squares, both stay
     #[arg(long, value_name = "N", group = "goal", help_heading = "Approximation")]
     pub(crate) control_points: Option<usize>,
+
+    /// Find outliers, by Huber's weights or Tukey's, leave them out and list them
+    #[arg(long, value_enum, requires = "goal", help_heading = "Approximation")]
+    pub(crate) robust: Option<RobustChoice>,
 
     /// Corners that stay sharp: auto (those that the data show at the scale of the tolerance), none,
     /// or the smallest turn in degrees [default: auto]
@@ -72,6 +88,31 @@ pub(crate) struct ApproximationArguments {
         help_heading = "Approximation"
     )]
     pub(crate) corners: Option<CornersChoice>,
+}
+
+/// [`Robust`] as typed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum RobustChoice {
+    Huber,
+    Tukey,
+}
+
+/// A standard deviation, or none to have it estimated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct NoiseChoice(Option<f64>);
+
+impl FromStr for NoiseChoice {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        Ok(Self(match text {
+            "auto" => None,
+            _ => Some(
+                values::number(text)
+                    .map_err(|_| format!("\"{text}\" is neither auto nor a standard deviation"))?,
+            ),
+        }))
+    }
 }
 
 /// [`Corners`] as typed.
@@ -138,21 +179,26 @@ impl ApproximationArguments {
         degree: usize,
         closed: bool,
     ) -> anyhow::Result<Option<ApproximationOptions>> {
-        let goal = match (self.tolerance, self.rms, self.control_points) {
-            (Some(tolerance), _, _) => Goal::Tolerance(tolerance),
-            (_, Some(rms), _) => Goal::Rms(rms),
-            (_, _, Some(count)) => Goal::ControlPoints(count),
+        let goal = match (self.tolerance, self.rms, self.noise, self.control_points) {
+            (Some(tolerance), ..) => Goal::Tolerance(tolerance),
+            (_, Some(rms), ..) => Goal::Rms(rms),
+            (_, _, Some(NoiseChoice(deviation)), _) => Goal::Noise(deviation),
+            (.., Some(count)) => Goal::ControlPoints(count),
             _ => return Ok(None),
         };
         let corners = self.corners.map_or(Corners::Auto, |choice| choice.0);
         ensure!(
             self.control_points.is_none() || self.corners.is_none() || corners == Corners::None,
-            "--corners belongs to --tolerance and --rms"
+            "--corners belongs to --tolerance, --rms and --noise"
         );
         Ok(Some(ApproximationOptions {
             degree,
             closed,
             corners,
+            robust: self.robust.map(|choice| match choice {
+                RobustChoice::Huber => Robust::Huber,
+                RobustChoice::Tukey => Robust::Tukey,
+            }),
             ..ApproximationOptions::new(goal)
         }))
     }

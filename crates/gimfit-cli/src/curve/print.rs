@@ -115,6 +115,11 @@ fn approximation(lines: &mut Lines, job: &Job<'_>, account: &ApproximationReport
             account.calm_limit
         ),
     );
+    if !account.outliers.is_empty() {
+        let rows: Vec<String> =
+            account.outliers.iter().map(|&row| job.table.row_name(row)).collect();
+        lines.add("outliers", &format!("{} left out: {}", rows.len(), listed(&rows)));
+    }
     if !account.corners.is_empty() {
         let corners: Vec<String> = account.corners.iter().map(|&j| place(job, j)).collect();
         lines.add("corners", &format!("{} kept sharp: {}", corners.len(), listed(&corners)));

@@ -21,6 +21,12 @@ pub struct ApproximationData {
     pub overshoot: f64,
     /// How far it may stray and be calm.
     pub calm_limit: f64,
+    /// Standard deviation of the noise that was left out, in a coordinate.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub noise: Option<f64>,
+    /// Outliers, which were left out, among the points given.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub outliers: Vec<usize>,
     /// Corners kept sharp.
     pub corners: Vec<usize>,
     /// Polynomial pieces.
@@ -41,6 +47,8 @@ impl ApproximationData {
             worst: account.worst.clone(),
             overshoot: account.overshoot,
             calm_limit: account.calm_limit,
+            noise: account.noise,
+            outliers: account.outliers.clone(),
             corners: account.corners.clone(),
             pieces: account.pieces,
             rounds: account.rounds,

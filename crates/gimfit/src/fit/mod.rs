@@ -26,7 +26,7 @@ mod surface_method;
 mod triangle;
 
 pub use approximate::{
-    ApproximationOptions, Corners, Goal, approximate_curve, approximate_curve_observed,
+    ApproximationOptions, Corners, Goal, Robust, approximate_curve, approximate_curve_observed,
 };
 pub use blending::{BlendingCurveFit, fit_blending_curve, fit_blending_curve_observed};
 pub use blending_surface::{

@@ -50,9 +50,12 @@ impl<'a> MovingCurve<'a> {
             knots,
             dimension,
             lanes,
-            coefficients: vec![0.0; (knots.control_points() - knots.degree()) * {
-                dimension.div_ceil(lanes) * lanes * (knots.degree() + 1)
-            }],
+            coefficients: vec![
+                0.0;
+                (knots.control_points() - knots.degree()) * {
+                    dimension.div_ceil(lanes) * lanes * (knots.degree() + 1)
+                }
+            ],
             last: knots.degree(),
         };
         curve.expand(control);
@@ -66,7 +69,8 @@ impl<'a> MovingCurve<'a> {
 
     /// Expands every span around its first knot.
     fn expand(&mut self, control: &[f64]) {
-        let (p, d, lanes, stride) = (self.knots.degree(), self.dimension, self.lanes, self.stride());
+        let (p, d, lanes, stride) =
+            (self.knots.degree(), self.dimension, self.lanes, self.stride());
         let knots = self.knots.values();
         let columns = control.len() / d;
         // Functions of all degrees at the first knot, degree q from q (q + 1) / 2 on.
@@ -118,9 +122,10 @@ impl<'a> MovingCurve<'a> {
     /// length, and the place in it.
     fn locate(&self, from: usize, t: f64) -> (usize, &[f64], f64, f64) {
         let values = self.knots.values();
-        let within = |span: usize| {
-            span + 1 < values.len() && values[span] <= t && t < values[span + 1]
-        };
+        let degree = self.knots.degree();
+        let spans = degree..self.knots.control_points();
+        let within =
+            |span: usize| spans.contains(&span) && values[span] <= t && t < values[span + 1];
         let span = if within(from) {
             from
         } else if within(from + 1) {
@@ -180,51 +185,71 @@ impl<'a> MovingCurve<'a> {
         (t, here.square.sqrt())
     }
 
+    /// The foot point of one point between two parameters, from one in between on: its parameter and
+    /// distance.
+    pub(crate) fn foot(&mut self, point: &[f64], start: f64, room: (f64, f64)) -> (f64, f64) {
+        match self.lanes {
+            1 => self.correct::<1>(point, start, room),
+            2 => self.correct::<2>(point, start, room),
+            3 => self.correct::<3>(point, start, room),
+            _ => self.correct::<4>(point, start, room),
+        }
+    }
+
     /// Corrects all parameters; `distances` receives what is left. On an open curve the first and
     /// the last parameter stay. Parameters of a closed curve span less than a period, which may lie
     /// anywhere.
+    ///
+    /// With `reach` 1 parameters stay in order; with more they may pass up to so many neighbours, as
+    /// those of noisy points must.
     pub(crate) fn correct_all(
         &mut self,
         data: &[f64],
+        reach: usize,
         parameters: &mut [f64],
         distances: &mut [f64],
     ) {
         match self.lanes {
-            1 => self.correct_each::<1>(data, parameters, distances),
-            2 => self.correct_each::<2>(data, parameters, distances),
-            3 => self.correct_each::<3>(data, parameters, distances),
-            _ => self.correct_each::<4>(data, parameters, distances),
+            1 => self.correct_each::<1>(data, reach, parameters, distances),
+            2 => self.correct_each::<2>(data, reach, parameters, distances),
+            3 => self.correct_each::<3>(data, reach, parameters, distances),
+            _ => self.correct_each::<4>(data, reach, parameters, distances),
         }
     }
 
     fn correct_each<const LANES: usize>(
         &mut self,
         data: &[f64],
+        reach: usize,
         parameters: &mut [f64],
         distances: &mut [f64],
     ) {
         let count = parameters.len();
         let (start, end) = self.knots.domain();
         let closed = self.knots.boundary() == Boundary::Periodic;
-        let first = parameters.first().copied().unwrap_or(start);
-        let mut before = parameters
-            .last()
-            .map_or(start, |last| if closed { last - (end - start) } else { start });
+        let old = parameters.to_vec();
+        let period = end - start;
+        // Parameters of neighbours as they were, lap by lap round a closed curve.
+        let before = |j: usize| match j.checked_sub(reach) {
+            Some(k) => old[k],
+            None if closed => old[j + count - reach] - period,
+            None => start,
+        };
+        let after = |j: usize| match old.get(j + reach) {
+            Some(&next) => next,
+            None if closed => old[j + reach - count] + period,
+            None => end,
+        };
         for (j, point) in data.chunks_exact(self.dimension).enumerate() {
-            let here = parameters[j];
-            let after = match parameters.get(j + 1) {
-                Some(&next) => next,
-                None if closed => first + (end - start),
-                None => end,
-            };
+            let here = old[j];
             let fixed = !closed && (j == 0 || j + 1 == count);
             let room = if fixed {
                 (here, here)
             } else {
-                (here - SHARE * (here - before), here + SHARE * (after - here))
+                let (low, high) = (before(j).min(here), after(j).max(here));
+                (here - SHARE * (here - low), here + SHARE * (high - here))
             };
             (parameters[j], distances[j]) = self.correct::<LANES>(point, here, room);
-            before = here;
         }
     }
 }
@@ -359,7 +384,7 @@ mod tests {
         let mut distances = vec![f64::INFINITY; 40];
         for _ in 0..30 {
             let before = distances.clone();
-            moving.correct_all(&data, &mut t, &mut distances);
+            moving.correct_all(&data, 1, &mut t, &mut distances);
             assert!(t.windows(2).all(|pair| pair[0] < pair[1]) && t[39] < t[0] + 8.0);
             assert!(distances.iter().zip(before).all(|(now, before)| *now <= before + 1e-15));
         }

@@ -19,11 +19,18 @@ pub struct ApproximationReport {
     /// How far it may stray and still be calm: 1.05 times the distance allowed, and 1.5 times what a
     /// local interpolant of the same points strays.
     pub calm_limit: f64,
+    /// Standard deviation of the noise in a coordinate, given or estimated, where the goal is to leave
+    /// it out.
+    pub noise: Option<f64>,
+    /// Positions of the outliers among the points given: they are not fitted, and no figure here counts
+    /// them.
+    pub outliers: Vec<usize>,
     /// Positions of the corners kept sharp, among the points fitted.
     pub corners: Vec<usize>,
     /// Polynomial pieces.
     pub pieces: usize,
-    /// Rounds of fitting and correcting parameters, over all attempts.
+    /// Rounds of fitting and correcting parameters, over all attempts; a round over more than 65536
+    /// points counts once per 65536.
     pub rounds: usize,
 }
 

@@ -5,7 +5,9 @@
 //! largest (Lawson 1961), so that the largest distance falls rather than the mean.
 
 use super::breaks::{looks, relaxed};
+use super::noise::CHANCE;
 use super::problem::{Guard, Measure, Problem};
+use super::sample::ROUND;
 use crate::Error;
 use crate::collocation::{CollocationMatrix, DataRows};
 use crate::knots::KnotVector;
@@ -20,6 +22,8 @@ pub(super) struct Attempt {
     pub(super) control: Vec<f64>,
     pub(super) parameters: Vec<f64>,
     pub(super) weights: Vec<f64>,
+    /// Weights of their own for points that are far off; empty where none is looked for.
+    pub(super) trust: Vec<f64>,
     /// Places between the data where the curve is watched; more are added where it strays.
     pub(super) guards: Vec<Guard>,
     guard_weights: Vec<f64>,
@@ -31,7 +35,7 @@ pub(super) struct Attempt {
     pub(super) worst: f64,
 }
 
-/// Rounds of all attempts, counted and limited.
+/// Rounds of all attempts, counted and limited; one over very many points counts as several.
 pub(super) struct Effort<'a> {
     pub(super) rounds: usize,
     pub(super) most: usize,
@@ -54,21 +58,30 @@ const HOLD: f64 = 1e-9;
 const ALERT: f64 = 0.9;
 
 impl Attempt {
-    /// Without breakpoints, at first parameters.
+    /// Without control points, at first parameters.
     pub(super) fn new(problem: &Problem<'_>, breaks: Vec<f64>, parameters: Vec<f64>) -> Self {
-        let (points, guards) = (problem.points(), problem.guards());
-        let count = guards.len();
-        Self {
+        let points = problem.points();
+        let mut attempt = Self {
             breaks,
             control: Vec::new(),
             parameters,
             weights: vec![1.0; points],
-            guards,
-            guard_weights: vec![0.0; count],
+            trust: Vec::new(),
+            guards: Vec::new(),
+            guard_weights: Vec::new(),
             ratios: vec![0.0; points],
-            guard_ratios: vec![0.0; count],
+            guard_ratios: Vec::new(),
             worst: f64::INFINITY,
-        }
+        };
+        attempt.watch(problem);
+        attempt
+    }
+
+    /// Sets the first guards.
+    pub(super) fn watch(&mut self, problem: &Problem<'_>) {
+        self.guards = problem.guards();
+        self.guard_weights = vec![0.0; self.guards.len()];
+        self.guard_ratios = vec![0.0; self.guards.len()];
     }
 
     /// The same with other breakpoints; what was learnt about parameters and weights is kept.
@@ -77,10 +90,28 @@ impl Attempt {
         Self { breaks, control: Vec::new(), weights, worst: f64::INFINITY, ..self.clone() }
     }
 
+    /// The same at some of the points.
+    pub(super) fn at(&self, positions: &[usize]) -> Self {
+        let pick = |values: &[f64]| positions.iter().map(|&j| values[j]).collect();
+        Self {
+            breaks: self.breaks.clone(),
+            control: self.control.clone(),
+            parameters: pick(&self.parameters),
+            weights: pick(&self.weights),
+            trust: Vec::new(),
+            ratios: pick(&self.ratios),
+            guards: Vec::new(),
+            guard_weights: Vec::new(),
+            guard_ratios: Vec::new(),
+            worst: f64::INFINITY,
+        }
+    }
+
     /// The same with all weights equal again.
     pub(super) fn with_fresh_breaks(&self, breaks: Vec<f64>) -> Self {
         let mut fresh = self.with_breaks(breaks);
         fresh.weights.fill(1.0);
+        fresh.trust.clear();
         fresh.guard_weights.fill(0.0);
         fresh
     }
@@ -140,7 +171,7 @@ impl Attempt {
             if best.as_ref().is_none_or(|best| self.worst < best.worst) {
                 best = Some(self.clone());
             }
-            effort.rounds += 1;
+            effort.rounds += problem.points().div_ceil(ROUND);
             effort.stopped |= !(effort.watch)(effort.rounds, self, problem.tolerance);
             let least = best.as_ref().map_or(f64::INFINITY, |best| best.worst);
             let hopeless = round >= 5 && least > 4.0;
@@ -169,7 +200,8 @@ impl Attempt {
         let rows = DataRows::new(&at, knots);
         let mut equations = rows.equations(d);
         for j in 0..at.len() {
-            rows.add_to(j, self.weights[j], problem.point(j), &mut equations);
+            let weight = self.weights[j] * self.trust.get(j).unwrap_or(&1.0);
+            rows.add_to(j, weight, problem.point(j), &mut equations);
         }
         let known = self.control.len() == rows.columns() * d;
         if known {
@@ -203,25 +235,12 @@ impl Attempt {
     fn measure(&mut self, problem: &Problem<'_>, knots: &KnotVector) {
         let control = std::mem::take(&mut self.control);
         let mut curve = MovingCurve::new(knots, &control, problem.dimension);
-        curve.correct_all(problem.data, &mut self.parameters, &mut self.ratios);
-        let mut square = 0.0;
-        let mut largest: f64 = 0.0;
-        for ratio in &mut self.ratios {
-            *ratio /= problem.tolerance;
-            square += *ratio * *ratio;
-            largest = largest.max(*ratio);
+        curve.correct_all(problem.data, problem.reach, &mut self.parameters, &mut self.ratios);
+        self.ratios.iter_mut().for_each(|ratio| *ratio /= problem.tolerance);
+        if let Some(robust) = problem.robust {
+            self.distrust(problem, robust);
         }
-        self.worst = match problem.measure {
-            Measure::Largest => largest,
-            Measure::Rms => {
-                // Points that are met by demand do not lower the mean.
-                let counted = self.ratios.len() - if problem.pinned { 2 } else { 0 };
-                (square / counted.max(1) as f64).sqrt()
-            }
-        };
-        if !square.is_finite() {
-            self.worst = f64::INFINITY;
-        }
+        self.judge(problem);
         let mut place = [vec![0.0; problem.dimension], vec![0.0; problem.dimension]];
         for g in 0..self.guards.len() {
             let ratio = self.strayed(problem, &mut curve, self.guards[g], &mut place);
@@ -232,6 +251,41 @@ impl Attempt {
             self.look_between(problem, &mut curve, &mut place);
         }
         self.control = control;
+    }
+
+    /// Sums up the ratios of the data points.
+    pub(super) fn judge(&mut self, problem: &Problem<'_>) {
+        let square: f64 = self.ratios.iter().map(|ratio| ratio * ratio).sum();
+        self.worst = match problem.measure {
+            Measure::Largest => self.ratios.iter().copied().fold(0.0, f64::max),
+            Measure::Rms => {
+                // Points that are met by demand do not lower the mean.
+                let counted = self.ratios.len() - if problem.pinned { 2 } else { 0 };
+                let mean = square / counted.max(1) as f64;
+                (mean / problem.luck_of_few()).sqrt()
+            }
+            Measure::Noise => self.beyond_noise(problem),
+        };
+        if !square.is_finite() {
+            self.worst = f64::INFINITY;
+        }
+    }
+
+    /// The mean square, in all and in stretches of the data, over what noise makes of it.
+    fn beyond_noise(&self, problem: &Problem<'_>) -> f64 {
+        let points = self.ratios.len();
+        let mean = |ratios: &[f64]| ratios.iter().map(|r| r * r).sum::<f64>() / ratios.len() as f64;
+        // What the control points take up is missing in the mean.
+        let taken = problem.control_points(self.breaks.len()) as f64 / points as f64;
+        let all = mean(&self.ratios) / (1.0 - taken).max(0.1);
+        let stretch = (points / 32).max(64);
+        let stretches = self.ratios.chunks(stretch).filter(|part| part.len() == stretch);
+        let number = (points / stretch).max(1) as f64;
+        let worst = stretches.map(mean).fold(0.0, f64::max);
+        // The largest of many is expected to be off by the root of twice their logarithm.
+        let chance = CHANCE + (2.0 * number.ln()).sqrt();
+        let all = all / problem.chance(points as f64, CHANCE);
+        all.max(worst / problem.chance(stretch as f64, chance)).sqrt()
     }
 
     /// How far the curve is from the data polyline at a guard, over what is allowed; `place` is
@@ -261,7 +315,7 @@ impl Attempt {
         place: &mut [Vec<f64>; 2],
     ) {
         let polyline = problem.polyline();
-        for leg in 0..polyline.legs() {
+        for leg in (0..polyline.legs()).filter(|&leg| problem.is_watched(leg)) {
             let from = self.parameters[leg];
             let to = self.guard_parameter(Guard { leg, share: 1.0 });
             let places = looks(from, to, &self.breaks, problem.closed);
@@ -322,7 +376,7 @@ impl Attempt {
 /// Data points near the Greville abscissae: where control points stay that nothing pulls.
 fn near_data(problem: &Problem<'_>, knots: &KnotVector, at: &[f64], columns: usize) -> Vec<f64> {
     let mut order: Vec<usize> = (0..at.len()).collect();
-    if problem.closed {
+    if problem.closed || problem.reach > 1 {
         order.sort_by(|&a, &b| at[a].total_cmp(&at[b]));
     }
     let greville = knots.greville_abscissae();

@@ -2,7 +2,7 @@
 //! Burchard 1974), or where the distance is largest.
 
 use super::attempt::Attempt;
-use super::problem::Problem;
+use super::problem::{Measure, Problem};
 use crate::Error;
 use crate::knots::KnotVector;
 
@@ -121,15 +121,37 @@ pub(super) fn density_of_jumps(attempt: &Attempt, problem: &Problem<'_>) -> Resu
 /// Breakpoints moved so that spans with large distances shrink and calm ones grow.
 pub(super) fn relaxed(attempt: &Attempt, problem: &Problem<'_>) -> Vec<f64> {
     let ends = span_ends(attempt, problem.closed);
-    let mut largest = vec![0.0_f64; ends.len() - 1];
-    for_each_ratio(attempt, |t, ratio, _| {
-        let span = span_of(&ends, t, problem.closed);
-        largest[span] = largest[span].max(ratio);
-    });
+    let scores = scores(attempt, problem, &ends);
+    let top = scores.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
     let power = DAMPING / (problem.degree as f64 + 1.0);
     let amounts: Vec<f64> =
-        largest.iter().map(|r| (r / attempt.worst).clamp(LEAST_RATIO, 1.0).powf(power)).collect();
+        scores.iter().map(|score| (score / top).clamp(LEAST_RATIO, 1.0).powf(power)).collect();
     Density::from_spans(&ends, &amounts).place(attempt.breaks.len(), problem.closed)
+}
+
+/// How far each span is off: the largest ratio, or where means are judged their root, less what may
+/// be chance.
+pub(super) fn scores(attempt: &Attempt, problem: &Problem<'_>, ends: &[f64]) -> Vec<f64> {
+    let spans = ends.len() - 1;
+    let (mut largest, mut sums) = (vec![0.0_f64; spans], vec![(0.0, 0.0); spans]);
+    for_each_ratio(attempt, |t, ratio, is_data| {
+        let span = span_of(ends, t, problem.closed);
+        if is_data && problem.measure != Measure::Largest {
+            sums[span].0 += 1.0;
+            sums[span].1 += ratio * ratio;
+        } else if is_data || ratio > 1.0 {
+            largest[span] = largest[span].max(ratio);
+        }
+    });
+    let score = |(largest, (count, square)): (f64, (f64, f64))| {
+        let count = f64::max(count, 1.0);
+        let chance = match problem.measure {
+            Measure::Noise => problem.chance(count, 4.0),
+            Measure::Largest | Measure::Rms => 1.0,
+        };
+        largest.max((square / count / chance).sqrt())
+    };
+    largest.into_iter().zip(sums).map(score).collect()
 }
 
 /// Visits parameter and ratio of all data points and guards; the flag tells data points.

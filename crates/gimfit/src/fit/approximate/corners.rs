@@ -20,9 +20,9 @@ pub(super) fn find_corners(polyline: &Polyline<'_>, tolerance: f64, least: f64) 
     if points < 4 {
         return Vec::new();
     }
-    let turns = |arm: f64| -> Vec<f64> {
-        (0..points).map(|j| turn_at(polyline, j, arm * tolerance)).collect()
-    };
+    let arms = Arms::new(polyline);
+    let turns =
+        |arm: f64| -> Vec<f64> { (0..points).map(|j| arms.turn(j, arm * tolerance)).collect() };
     let [at_once, near, far] = ARMS.map(turns);
     let is_end = |j: usize| !polyline.closed && (j == 0 || j + 1 == points);
     let at = |j: usize, offset: isize| -> f64 {
@@ -43,7 +43,7 @@ pub(super) fn find_corners(polyline: &Polyline<'_>, tolerance: f64, least: f64) 
             let greatest = [-1, 1]
                 .iter()
                 .all(|&offset| near[j] > at(j, offset) || (near[j] == at(j, offset) && offset > 0));
-            greatest && near[j] >= CONTRAST * usual_turn(polyline, j)
+            greatest && near[j] >= CONTRAST * usual_turn(&arms, j)
         })
         .collect();
     // Two corners closer than an arm are one.
@@ -66,15 +66,15 @@ pub(super) fn find_corners(polyline: &Polyline<'_>, tolerance: f64, least: f64) 
 
 /// The usual turn beside a point, on the side where it is greater: the median over three neighbours,
 /// leg against leg. Corners may stand side by side.
-fn usual_turn(polyline: &Polyline<'_>, j: usize) -> f64 {
-    let points = polyline.points() as isize;
+fn usual_turn(arms: &Arms<'_>, j: usize) -> f64 {
+    let (points, closed) = (arms.polyline.points() as isize, arms.polyline.closed);
     let beside = |direction: isize| {
         let mut turns: Vec<f64> = (1..=3)
             .filter_map(|offset| {
                 let k = j as isize + direction * offset;
-                let k = if polyline.closed { k.rem_euclid(points) } else { k };
-                let inner = polyline.closed || (k > 0 && k + 1 < points);
-                inner.then(|| turn_at(polyline, k as usize, 0.0))
+                let k = if closed { k.rem_euclid(points) } else { k };
+                let inner = closed || (k > 0 && k + 1 < points);
+                inner.then(|| arms.turn(k as usize, 0.0))
             })
             .collect();
         turns.sort_by(f64::total_cmp);
@@ -83,45 +83,68 @@ fn usual_turn(polyline: &Polyline<'_>, j: usize) -> f64 {
     beside(-1).max(beside(1))
 }
 
-/// Turn in degrees at point `j` between the chords to the points an arm away along the polyline, or
-/// to the neighbours where they are farther.
-fn turn_at(polyline: &Polyline<'_>, j: usize, arm: f64) -> f64 {
-    let (points, legs) = (polyline.points(), polyline.legs());
-    let walk = |forward: bool| -> Option<usize> {
+/// A polyline with the lengths along it.
+struct Arms<'a> {
+    polyline: &'a Polyline<'a>,
+    /// From the first point to each; of a closed polyline, once round more.
+    lengths: Vec<f64>,
+}
+
+impl<'a> Arms<'a> {
+    fn new(polyline: &'a Polyline<'a>) -> Self {
+        let points = polyline.points();
+        let count = if polyline.closed { 2 * points } else { points };
         let mut length = 0.0;
-        let mut k = j;
-        for _ in 0..legs {
-            let next = if forward {
-                if polyline.closed { (k + 1) % points } else { k + 1 }
-            } else if k > 0 {
-                k - 1
-            } else if polyline.closed {
-                points - 1
-            } else {
-                return (k != j).then_some(k);
-            };
-            if next >= points {
-                return (k != j).then_some(k);
-            }
-            length += distance(polyline.point(k), polyline.point(next));
-            k = next;
-            if length > 0.0 && length >= arm {
-                return Some(k);
-            }
-        }
-        None
-    };
-    let (Some(before), Some(after)) = (walk(false), walk(true)) else { return 0.0 };
-    let (a, b, c) = (polyline.point(before), polyline.point(j), polyline.point(after));
-    let (mut dot, mut one, mut two) = (0.0, 0.0, 0.0);
-    for i in 0..polyline.dimension {
-        let (x, y) = (b[i] - a[i], c[i] - b[i]);
-        dot += x * y;
-        one += x * x;
-        two += y * y;
+        let lengths = (0..count)
+            .map(|j| {
+                let here = length;
+                if j + 1 < count {
+                    length += polyline.leg_length(j % points);
+                }
+                here
+            })
+            .collect();
+        Self { polyline, lengths }
     }
-    let cosine = dot / (one * two).sqrt();
-    if cosine.is_finite() { cosine.clamp(-1.0, 1.0).acos().to_degrees() } else { 0.0 }
+
+    /// Turn in degrees at point `j` between the chords to the points an arm away along the polyline,
+    /// or to the neighbours where they are farther; from an end of an open one, to the other end at
+    /// most.
+    fn turn(&self, j: usize, arm: f64) -> f64 {
+        let (points, closed) = (self.polyline.points(), self.polyline.closed);
+        let lengths = &self.lengths;
+        let far = |length: f64| length > 0.0 && length >= arm;
+        let reach = if closed { points / 2 } else { points };
+        let (here, back) = if closed { (j, j + points) } else { (j, j) };
+
+        // The first point ahead, and the last one behind, that is an arm away.
+        let last = (here + reach).min(lengths.len() - 1);
+        let ahead = here + lengths[here..=last].partition_point(|&x| !far(x - lengths[here]));
+        let after = if ahead <= last { Some(ahead) } else { (!closed).then_some(last) };
+        let first = back.saturating_sub(reach);
+        let behind = first + lengths[first..=back].partition_point(|&x| far(lengths[back] - x));
+        let before = if behind > first { Some(behind - 1) } else { (!closed).then_some(first) };
+        match (before, after) {
+            (Some(before), Some(after)) if before != back && after != here => {
+                self.between(before % points, j, after % points)
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// Turn in degrees between two chords.
+    fn between(&self, before: usize, j: usize, after: usize) -> f64 {
+        let [a, b, c] = [before, j, after].map(|k| self.polyline.point(k));
+        let (mut dot, mut one, mut two) = (0.0, 0.0, 0.0);
+        for i in 0..self.polyline.dimension {
+            let (x, y) = (b[i] - a[i], c[i] - b[i]);
+            dot += x * y;
+            one += x * x;
+            two += y * y;
+        }
+        let cosine = dot / (one * two).sqrt();
+        if cosine.is_finite() { cosine.clamp(-1.0, 1.0).acos().to_degrees() } else { 0.0 }
+    }
 }
 
 #[cfg(test)]

@@ -4,14 +4,18 @@
 mod attempt;
 mod breaks;
 mod corners;
+mod goal;
+mod noise;
 mod options;
 mod pieces;
 mod polyline;
 mod problem;
+mod robust;
+mod sample;
 mod search;
 mod verify;
 
-pub use options::{ApproximationOptions, Corners, Goal};
+pub use options::{ApproximationOptions, Corners, Goal, Robust};
 
 use super::CurveFit;
 use super::solve::{Size, unscaled};
@@ -23,6 +27,7 @@ use crate::points::{Extent, Points, PointsView};
 use crate::report::{CurveReport, RunReport};
 use attempt::{Attempt, Effort};
 use corners::{AUTO_ANGLE, find_corners};
+use goal::check_goal;
 use pieces::Piece;
 use polyline::Polyline;
 use problem::{Measure, Problem};
@@ -91,7 +96,6 @@ pub fn approximate_curve_observed<'a>(
         return Err(Error::NoPoints { needed });
     }
     let size = Size::of(Extent::of(points)?);
-    let goal = check_goal(options, &size)?;
     let (dimension, given) = (points.dimension(), points.len());
     let mut choices = Vec::new();
     let mut data = size.scale.apply(points.coordinates()).into_owned();
@@ -116,8 +120,52 @@ pub fn approximate_curve_observed<'a>(
         return Err(Error::TooFewPoints { points: count, degree: options.degree, needed });
     }
 
+    let goal = check_goal(options, &size, &Polyline { data: &data, dimension, closed })?;
+    if let Some((deviation, true)) = goal.noise {
+        let deviation = size.scale.undo(deviation);
+        choices.push(format!("noise: standard deviation {deviation:.3e} a coordinate, estimated"));
+    }
+    let mut rounds = 0;
+    let mut cancelled = false;
+    let mut trace = Trace::with_room_for(0);
+    let mut watch = |round: usize, attempt: &Attempt, tolerance: f64| {
+        let [largest, rms] = attempt.distances().map(|d| size.scale.undo(d * tolerance));
+        let entry = HistoryEntry {
+            iteration: round,
+            max_residual: largest,
+            rms_residual: rms,
+            normal_residual: None,
+        };
+        trace.push(entry);
+        observer.observe(Snapshot { entry, control: &attempt.control }) == Flow::Continue
+    };
+    let tolerance = goal.tolerance.unwrap_or(1e-6 * diagonal) * SPARE;
+    let most_rounds = options.rounds.unwrap_or_else(|| {
+        let looked_at = if count > sample::ALL { sample::FEW } else { count };
+        (EFFORT / looked_at).clamp(*ROUNDS.start(), *ROUNDS.end())
+    });
+    let mut outliers = Vec::new();
+    if options.robust.is_some() {
+        let mut problem =
+            Problem::new(&data, dimension, options.degree, closed, goal.measure, tolerance);
+        problem.robust = options.robust;
+        let mut effort =
+            Effort { rounds, most: most_rounds, watch: &mut watch, stopped: cancelled };
+        outliers = robust::outliers(&problem, goal.breaks, &mut effort)?;
+        cancelled |= effort.stopped;
+        rounds = effort.rounds;
+    }
+    let is_kept = |j: &usize| outliers.binary_search(j).is_err();
+    let kept: Vec<usize> = (0..count).filter(is_kept).collect();
+    let mut data: Vec<f64> =
+        kept.iter().flat_map(|&j| &data[j * dimension..][..dimension]).copied().collect();
+    let count = kept.len();
+    if count < needed {
+        return Err(Error::TooFewPoints { points: count, degree: options.degree, needed });
+    }
+
     let polyline = Polyline { data: &data, dimension, closed };
-    let scale_of_corners = goal.tolerance.unwrap_or(1e-3 * diagonal);
+    let scale_of_corners = goal.detail.unwrap_or(1e-3 * diagonal);
     let mut corners = match options.corners {
         Corners::None => Vec::new(),
         Corners::Auto => find_corners(&polyline, scale_of_corners, AUTO_ANGLE),
@@ -138,39 +186,24 @@ pub fn approximate_curve_observed<'a>(
         ));
     }
 
-    let mut rounds = 0;
-    let mut cancelled = false;
-    let mut trace = Trace::with_room_for(0);
-    let pieces = pieces::split(&data, dimension, options.closed, &corners);
-    let most_rounds =
-        options.rounds.unwrap_or_else(|| (EFFORT / count).clamp(*ROUNDS.start(), *ROUNDS.end()));
-    let mut found: Vec<(Piece, Attempt)> = Vec::with_capacity(pieces.len());
-    for piece in pieces {
-        let tolerance = goal.tolerance.unwrap_or(1e-6 * diagonal) * SPARE;
+    let mut found: Vec<(Piece, Attempt)> = Vec::new();
+    let most_rounds = rounds + most_rounds;
+    let mut spent = 0;
+    for piece in pieces::split(&data, dimension, options.closed, &corners) {
         let mut problem =
             Problem::new(&piece.data, dimension, options.degree, closed, goal.measure, tolerance);
         problem.pinned = !corners.is_empty();
         let mut watch = |round: usize, attempt: &Attempt, tolerance: f64| {
-            let [largest, rms] = attempt.distances().map(|d| size.scale.undo(d * tolerance));
-            let entry = HistoryEntry {
-                iteration: rounds + round,
-                max_residual: largest,
-                rms_residual: rms,
-                normal_residual: None,
-            };
-            trace.push(entry);
-            observer.observe(Snapshot { entry, control: &attempt.control }) == Flow::Continue
+            watch(spent + round, attempt, tolerance)
         };
         let mut effort =
-            Effort { rounds: 0, most: most_rounds, watch: &mut watch, stopped: cancelled };
-        let attempt = match goal.breaks {
-            Some(breaks) => search::best_with(&mut problem, breaks, &mut effort)?,
-            None => search::fewest(&problem, 0, &mut effort)?,
-        };
+            Effort { rounds, most: most_rounds, watch: &mut watch, stopped: cancelled };
+        let attempt = sample::search(&mut problem, goal.breaks, &mut effort)?;
         cancelled |= effort.stopped;
-        rounds += effort.rounds;
+        spent += effort.rounds - rounds;
         found.push((piece, attempt));
     }
+    rounds += spent;
 
     let joined = pieces::join(&found, options.degree, closed, dimension)?;
     drop(found);
@@ -193,14 +226,16 @@ pub fn approximate_curve_observed<'a>(
         starts.rotate_right(first);
     }
     let verified = verify::verify(&curve, view, &starts, options.closed)?;
-    let limit = goal.tolerance.unwrap_or(verified.account.max_distance);
     let mut account = verified.account;
-    account.met = goal.tolerance.is_none_or(|tolerance| match goal.measure {
-        Measure::Largest => account.max_distance <= tolerance,
-        Measure::Rms => account.rms_distance <= tolerance,
+    account.met = goal.judged.is_none_or(|limit| match goal.measure {
+        Measure::Largest => account.max_distance <= limit,
+        Measure::Rms | Measure::Noise => account.rms_distance <= limit,
     });
+    let limit = goal.tolerance.map_or(account.max_distance, |t| goal.measure.stray(t));
     account.calm_limit = 1.05 * limit + 1.5 * natural;
     account.corners = corners;
+    account.outliers = outliers;
+    account.noise = goal.noise.map(|(deviation, _)| deviation);
     account.rounds = rounds;
     account.pieces = joined.knots.nonempty_spans().count();
     let undo = |x: f64| size.scale.undo(x);
@@ -213,6 +248,7 @@ pub fn approximate_curve_observed<'a>(
     ] {
         *length = undo(*length);
     }
+    account.noise = account.noise.map(undo);
     let termination = match (cancelled, account.met) {
         (_, true) if !cancelled => Termination::Residual,
         (true, _) => Termination::Cancelled,
@@ -238,7 +274,7 @@ pub fn approximate_curve_observed<'a>(
         iterations: rounds,
         iteration_returned: rounds,
         termination,
-        residual_target: goal.tolerance.map_or(0.0, undo),
+        residual_target: goal.judged.map_or(0.0, undo),
         extent: size.extent.diagonal(),
         max_residual: account.max_distance,
         rms_residual: account.rms_distance,
@@ -265,67 +301,13 @@ pub fn approximate_curve_observed<'a>(
     Ok(CurveFit {
         curve,
         parameters: verified.parameters,
-        kept_points: (count < given).then(|| (0..count).collect()),
+        kept_points: (count < given).then_some(kept),
         difference_vectors: unscaled(
             Points::new(dimension, verified.difference_vectors)?,
             size.scale,
         )?,
         report,
         sequence: Vec::new(),
-    })
-}
-
-/// A goal in the unit that the search works in.
-struct ScaledGoal {
-    measure: Measure,
-    tolerance: Option<f64>,
-    breaks: Option<usize>,
-}
-
-fn check_goal(options: &ApproximationOptions, size: &Size) -> Result<ScaledGoal, Error> {
-    let distance = |what: &str, value: f64| {
-        if value > 0.0 && value.is_finite() {
-            return Ok(size.scale.up(value));
-        }
-        Err(Error::OutOfRange {
-            what: what.into(),
-            value,
-            rule: "it must be a distance above 0, in the unit of the points",
-        })
-    };
-    if let Corners::Angle(angle) = options.corners
-        && !(angle > 0.0 && angle < 180.0)
-    {
-        return Err(Error::OutOfRange {
-            what: "angle of corners".into(),
-            value: angle,
-            rule: "it must lie between 0 and 180 degrees",
-        });
-    }
-    Ok(match options.goal {
-        Goal::Tolerance(tolerance) => ScaledGoal {
-            measure: Measure::Largest,
-            tolerance: Some(distance("tolerance", tolerance)?),
-            breaks: None,
-        },
-        Goal::Rms(rms) => ScaledGoal {
-            measure: Measure::Rms,
-            tolerance: Some(distance("rms distance", rms)?),
-            breaks: None,
-        },
-        Goal::ControlPoints(count) => {
-            let least = options.degree + 1;
-            if count < least {
-                return Err(Error::WrongCount {
-                    what: "control points",
-                    given: count,
-                    expected: least,
-                    why: "a curve has at least degree + 1; ask for more, or lower the degree",
-                });
-            }
-            let breaks = if options.closed { count } else { count - least };
-            ScaledGoal { measure: Measure::Largest, tolerance: None, breaks: Some(breaks) }
-        }
     })
 }
 

@@ -7,6 +7,9 @@ pub enum Goal {
     Tolerance(f64),
     /// The root of the mean squared distance no larger than this, likewise.
     Rms(f64),
+    /// As smooth as noise of this standard deviation in every coordinate lets the data be, with as
+    /// few control points as can be found; `None`: the noise is estimated.
+    Noise(Option<f64>),
     /// As close as can be with this many control points; a closed curve's repeated ones not counted.
     ControlPoints(usize),
 }
@@ -23,6 +26,15 @@ pub enum Corners {
     Angle(f64),
 }
 
+/// By which weights outliers are found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Robust {
+    /// Weights fall as distances grow (Huber 1964).
+    Huber,
+    /// Weights fall to nothing (Beaton and Tukey 1974).
+    Tukey,
+}
+
 /// What a caller chooses for [`approximate_curve`](super::approximate_curve).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ApproximationOptions {
@@ -34,6 +46,8 @@ pub struct ApproximationOptions {
     pub closed: bool,
     /// Corners that stay sharp.
     pub corners: Corners,
+    /// Whether outliers are looked for, to be left out of the fit and named in the report.
+    pub robust: Option<Robust>,
     /// Most rounds of fitting and correcting parameters; `None`: as many as take a second or two.
     pub rounds: Option<usize>,
 }
@@ -48,6 +62,6 @@ impl ApproximationOptions {
     /// A cubic that reaches a goal.
     #[must_use]
     pub fn new(goal: Goal) -> Self {
-        Self { goal, degree: 3, closed: false, corners: Corners::Auto, rounds: None }
+        Self { goal, degree: 3, closed: false, corners: Corners::Auto, robust: None, rounds: None }
     }
 }

@@ -100,6 +100,14 @@ pub(super) fn natural_overshoot(polyline: &Polyline<'_>) -> f64 {
     for leg in (0..legs).filter(|&leg| steps[leg] > 0.0) {
         let (a, b) = (polyline.point(leg), polyline.point(leg + 1));
         let (from, to) = (&slopes[leg * d..][..d], &slopes[(leg + 1) % points * d..][..d]);
+        // A cubic is this close to the chord that it starts and ends on.
+        let off = |slope: &[f64]| {
+            let away = |i: usize| steps[leg] * slope[i] - (b[i] - a[i]);
+            (0..d).map(|i| away(i).powi(2)).sum::<f64>().sqrt()
+        };
+        if 4.0 / 27.0 * (off(from) + off(to)) <= worst {
+            continue;
+        }
         for share in [0.15, 0.3, 0.45, 0.6, 0.75, 0.9] {
             let (s, r): (f64, f64) = (share, 1.0 - share);
             for i in 0..d {

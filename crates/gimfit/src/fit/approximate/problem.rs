@@ -1,5 +1,7 @@
 //! What an approximation has to meet: data points within a distance, and calm in between.
 
+use super::noise::{self, CHANCE, smoothed_parameters};
+use super::options::Robust;
 use super::polyline::{Polyline, natural_overshoot};
 
 /// How the distance is judged.
@@ -9,6 +11,20 @@ pub(super) enum Measure {
     Largest,
     /// By the root of the mean squared distance.
     Rms,
+    /// By the root of the mean squared distance, in all and in every stretch of the data, against
+    /// what noise explains.
+    Noise,
+}
+
+impl Measure {
+    /// What passes for the largest distance where a tolerance is kept.
+    pub(super) fn stray(self, tolerance: f64) -> f64 {
+        match self {
+            Self::Largest | Self::Rms => tolerance,
+            // Of many normal deviates.
+            Self::Noise => 4.0 * tolerance,
+        }
+    }
 }
 
 /// A place between two data points where the curve is watched.
@@ -39,6 +55,16 @@ pub(super) struct Problem<'a> {
     pub(super) allowance: f64,
     /// What a local interpolant of the same points strays.
     pub(super) natural: f64,
+    /// Standard deviation of noise that misleads chords, or 0.
+    pub(super) noise: f64,
+    /// First parameters, where chords do not tell.
+    pub(super) start: Option<Vec<f64>>,
+    /// How many places a parameter may move past its neighbours, and one more.
+    pub(super) reach: usize,
+    /// Whether outliers are looked for; the curve is not watched between the points then.
+    pub(super) robust: Option<Robust>,
+    /// Of points picked from more: the legs that join neighbours.
+    legs: Option<Vec<bool>>,
 }
 
 /// Share of the distance allowed that the curve may stray beyond what the data themselves explain.
@@ -46,6 +72,10 @@ const STRAY: f64 = 1.05;
 /// Multiple of the overshoot of a local interpolant that passes for calm; a little less than the 1.5
 /// reported, since the curve is watched at places.
 const NATURAL: f64 = 1.4;
+/// Noise of this part of the mean leg, and more, misleads chords.
+const NOISY: f64 = 0.1;
+/// Legs up to this many standard deviations may be noise.
+const LEG_OF_NOISE: f64 = 16.0;
 /// Most guards on a leg.
 const MOST_GUARDS: usize = 5;
 
@@ -72,15 +102,73 @@ impl<'a> Problem<'a> {
             enough: 1.0,
             allowance: 0.0,
             natural,
+            noise: 0.0,
+            start: None,
+            reach: 1,
+            robust: None,
+            legs: None,
         };
         problem.allow(tolerance);
+        let noise = match measure {
+            Measure::Noise => tolerance / problem.across().sqrt(),
+            Measure::Rms if polyline.points() > 2 * degree + 2 => noise::deviation(&polyline),
+            Measure::Rms | Measure::Largest => 0.0,
+        };
+        let legs = (0..polyline.legs()).map(|leg| polyline.leg_length(leg)).sum::<f64>();
+        if noise * polyline.legs() as f64 > NOISY * legs {
+            let (start, reach) = smoothed_parameters(&polyline, noise);
+            (problem.start, problem.reach) = (Some(start), reach);
+            problem.noise = noise;
+        }
         problem
     }
 
+    /// Directions across the curve: of the noise in a point, as many coordinates are seen.
+    pub(super) fn across(&self) -> f64 {
+        self.dimension.max(2) as f64 - 1.0
+    }
+
+    /// What the mean of the squared ratios of this many points may be by chance.
+    pub(super) fn chance(&self, points: f64, deviations: f64) -> f64 {
+        noise::chance(points, self.across(), deviations)
+    }
+
+    /// What the mean square of points picked from more may exceed that of all by.
+    pub(super) fn luck_of_few(&self) -> f64 {
+        match self.legs {
+            Some(_) => self.chance(self.points() as f64, CHANCE),
+            None => 1.0,
+        }
+    }
+
+    /// The same demands on some of the points, at these positions, ascending.
+    pub(super) fn sampled<'b>(&self, data: &'b [f64], positions: &[usize]) -> Problem<'b> {
+        let count = self.points();
+        let next = positions[1..].iter().copied().chain([positions[0] + count]);
+        let joined = positions.iter().zip(next).map(|(&j, next)| next == j + 1).collect();
+        let start = self.start.as_ref();
+        Problem {
+            data,
+            legs: Some(joined),
+            start: start.map(|start| positions.iter().map(|&j| start[j]).collect()),
+            reach: (self.reach * positions.len() / count).max(1),
+            ..*self
+        }
+    }
+
+    /// Whether the curve is watched along a leg: not where there are points in between that were not
+    /// picked.
+    pub(super) fn is_watched(&self, leg: usize) -> bool {
+        self.robust.is_none() && self.legs.as_ref().is_none_or(|legs| legs[leg])
+    }
+
     /// Legs so long that the curve could stray farther than is allowed between their ends.
-    pub(super) fn long_legs(&self) -> impl Iterator<Item = usize> + use<'a> {
-        let (polyline, least) = (self.polyline(), 0.5 * self.allowance);
-        (0..polyline.legs()).filter(move |&leg| polyline.leg_length(leg) > least)
+    pub(super) fn long_legs(&self) -> impl Iterator<Item = usize> {
+        // Noise makes legs of its own; picking the long ones would pick the noise.
+        let polyline = self.polyline();
+        let least = (0.5 * self.allowance).max(LEG_OF_NOISE * self.noise);
+        (0..polyline.legs())
+            .filter(move |&leg| self.is_watched(leg) && polyline.leg_length(leg) > least)
     }
 
     /// Guards to begin with: more on longer legs.
@@ -98,7 +186,7 @@ impl<'a> Problem<'a> {
     /// Sets the distance allowed, and with it how far the curve may stray.
     pub(super) fn allow(&mut self, tolerance: f64) {
         self.tolerance = tolerance;
-        self.allowance = NATURAL * self.natural + STRAY * tolerance;
+        self.allowance = NATURAL * self.natural + STRAY * self.measure.stray(tolerance);
     }
 
     /// Data points.
@@ -128,6 +216,9 @@ impl<'a> Problem<'a> {
 
     /// Parameters from cumulated chords to a power, on [0, 1]; coinciding points share one.
     pub(super) fn first_parameters(&self, power: f64) -> Vec<f64> {
+        if let Some(start) = &self.start {
+            return start.clone();
+        }
         let polyline = self.polyline();
         let count = self.points();
         let mut total = 0.0;

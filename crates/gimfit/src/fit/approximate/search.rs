@@ -2,7 +2,9 @@
 //! what a start has shown, then thinned out as long as all demands are met.
 
 use super::attempt::{Attempt, Effort};
-use super::breaks::{Density, density_of_jumps, for_each_ratio, significance, span_ends, span_of};
+use super::breaks::{
+    Density, density_of_jumps, for_each_ratio, scores, significance, span_ends, span_of,
+};
 use super::problem::{Measure, Problem};
 use crate::Error;
 
@@ -28,7 +30,8 @@ pub(super) fn fewest(
     let mut starts = Vec::new();
     let mut closest: Option<Attempt> = None;
     let mut rough = false;
-    for (number, power) in [1.0, 0.5].into_iter().enumerate() {
+    let powers: &[f64] = if problem.start.is_some() { &[1.0] } else { &[1.0, 0.5] };
+    for (number, &power) in powers.iter().enumerate() {
         effort.most = total * (number + 1) / 5;
         let grown = grow(problem, power, usize::MAX, effort)?;
         rough |= !met(&grown) || problem.control_points(grown.breaks.len()) * 5 > points * 2;
@@ -39,9 +42,11 @@ pub(super) fn fewest(
             closest = Some(grown);
         }
     }
+    // An interpolant is no start where noise is to be left out.
+    rough &= problem.start.is_none();
     if rough && points > 2 * problem.degree + 2 && !effort.stopped {
         effort.most = total / 2;
-        for power in [1.0, 0.5] {
+        for &power in powers {
             let dense = grow_from(problem, dense(problem, power), usize::MAX, effort)?;
             if met(&dense) {
                 starts.push(dense);
@@ -82,7 +87,7 @@ pub(super) fn grow(
 }
 
 /// Adds breakpoints until the demands are met, or there are as many as that.
-fn grow_from(
+pub(super) fn grow_from(
     problem: &Problem<'_>,
     mut attempt: Attempt,
     most_breaks: usize,
@@ -112,7 +117,7 @@ fn grow_from(
 fn additions(attempt: &Attempt, problem: &Problem<'_>) -> Vec<f64> {
     let ends = span_ends(attempt, problem.closed);
     let spans = ends.len() - 1;
-    let mut largest = vec![0.0_f64; spans];
+    let scores = scores(attempt, problem, &ends);
     let mut moments = vec![(0.0, 0.0); spans];
     for_each_ratio(attempt, |t, ratio, is_data| {
         if !is_data && ratio <= 1.0 {
@@ -120,18 +125,19 @@ fn additions(attempt: &Attempt, problem: &Problem<'_>) -> Vec<f64> {
         }
         let span = span_of(&ends, t, problem.closed);
         let along = if problem.closed { (t - ends[span]).rem_euclid(1.0) } else { t - ends[span] };
-        largest[span] = largest[span].max(ratio);
         moments[span].0 += ratio * ratio;
         moments[span].1 += ratio * ratio * along;
     });
-    let top = largest.iter().copied().fold(0.0, f64::max);
-    // For the root mean square no single span need exceed what is allowed.
+    let top = scores.iter().copied().fold(0.0, f64::max);
     let limit = match problem.measure {
         Measure::Largest => (0.25 * top).max(problem.enough),
-        Measure::Rms => 0.5 * top,
+        // The mean of all may be too large where that of no span is.
+        Measure::Noise if top > problem.enough => (0.25 * top).max(problem.enough),
+        _ if problem.start.is_some() => 0.85 * top,
+        Measure::Rms | Measure::Noise => 0.5 * top,
     };
-    let mut order: Vec<usize> = (0..spans).filter(|&s| largest[s] > limit).collect();
-    order.sort_by(|&a, &b| largest[b].total_cmp(&largest[a]));
+    let mut order: Vec<usize> = (0..spans).filter(|&s| scores[s] > limit).collect();
+    order.sort_by(|&a, &b| scores[b].total_cmp(&scores[a]));
     order
         .into_iter()
         .filter_map(|s| {
@@ -206,7 +212,7 @@ fn meet_with(
 }
 
 /// Takes breakpoints out, many at once as long as that goes, then one by one.
-fn thin(
+pub(super) fn thin(
     problem: &Problem<'_>,
     attempt: Attempt,
     will_do: usize,

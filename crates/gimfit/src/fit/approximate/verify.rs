@@ -1,7 +1,7 @@
 //! The figures of an approximation, measured on the finished curve.
 
 use super::breaks::looks;
-use super::polyline::Polyline;
+use super::polyline::{Polyline, distance};
 use crate::Error;
 use crate::geometry::Curve;
 use crate::points::PointsView;
@@ -53,6 +53,8 @@ pub(super) fn verify(
         worst: order,
         overshoot,
         calm_limit: 0.0,
+        noise: None,
+        outliers: Vec::new(),
         corners: Vec::new(),
         pieces: 0,
         rounds: 0,
@@ -80,11 +82,23 @@ fn overshoot(
     let inner = curve.knots().values();
     let mut worst: f64 = 0.0;
     let (mut point, mut nearest) = (vec![0.0; dimension], vec![0.0; dimension]);
+    let speeds = speeds(curve);
+    let degree = curve.degree();
     for leg in 0..polyline.legs() {
         let from = parameters[leg];
         let mut to = parameters[(leg + 1) % parameters.len()];
         if closed && to < from {
             to += end - start;
+        }
+        if to <= end {
+            // No look where the curve cannot get that far.
+            curve.evaluate_into(from, &mut point)?;
+            let off = polyline.nearest(leg, 3, &point, &mut nearest);
+            let (first, last) = (curve.knots().span(from)?, curve.knots().span(to)?);
+            let fastest = speeds[first - degree..last].iter().copied().fold(0.0, f64::max);
+            if off + fastest * (to - from) <= worst {
+                continue;
+            }
         }
         for t in looks(from, to, inner, false).into_iter().chain([from, to]) {
             let t = if t > end { t - (end - start) } else { t };
@@ -93,4 +107,19 @@ fn overshoot(
         }
     }
     Ok(worst)
+}
+
+/// Bounds of the speed: the norms of the control points of the first derivative; those of the span
+/// that begins at knot `k` are `k - p .. k`.
+fn speeds(curve: &Curve) -> Vec<f64> {
+    let (degree, dimension) = (curve.degree(), curve.dimension());
+    let knots = curve.knots().values();
+    let control = curve.control_points().coordinates();
+    let legs = control.chunks_exact(dimension).zip(control[dimension..].chunks_exact(dimension));
+    legs.enumerate()
+        .map(|(i, (a, b))| {
+            let gap = knots[i + 1 + degree] - knots[i + 1];
+            if gap > 0.0 { degree as f64 / gap * distance(a, b) } else { 0.0 }
+        })
+        .collect()
 }
