@@ -6,6 +6,7 @@ use super::options::Robust;
 use super::problem::{Measure, Problem};
 use super::sample;
 use crate::Error;
+use crate::projection::MovingCurve;
 
 /// A point this many times as far off as is usual, or allowed, is an outlier.
 const FAR: f64 = 4.0;
@@ -24,13 +25,55 @@ pub(super) fn outliers(
     breaks: Option<usize>,
     effort: &mut Effort<'_>,
 ) -> Result<Vec<usize>, Error> {
-    let mut found = sample::grown(problem, breaks.unwrap_or(problem.points() / 2), effort)?;
+    let breaks = breaks.unwrap_or(problem.points() / 2);
+    let mut found = sample::grown(problem, breaks, effort)?;
     // Until parameters have settled, good points may be far off too.
     let mut settling = problem.clone();
     settling.enough = 0.0;
     found.trust.clear();
     found.refine(&settling, SETTLING, effort)?;
-    Ok((0..problem.points()).filter(|&j| found.is_outlier(j)).collect())
+    let (suspects, others): (Vec<usize>, Vec<usize>) =
+        (0..problem.points()).partition(|&j| found.is_outlier(j));
+    if suspects.is_empty() || others.len() <= problem.degree + 1 {
+        return Ok(suspects);
+    }
+    // An outlier misleads the parameters of its neighbours: they are judged by a curve without it.
+    let data: Vec<f64> = others.iter().flat_map(|&j| problem.point(j)).copied().collect();
+    let mut without = Problem::new(
+        &data,
+        problem.dimension,
+        problem.degree,
+        problem.closed,
+        problem.measure,
+        problem.tolerance,
+    );
+    without.robust = problem.robust;
+    let fit = sample::grown(&without, breaks, effort)?;
+    let knots = fit.knots(&without)?;
+    let mut curve = MovingCurve::new(&knots, &fit.control, problem.dimension);
+    let mut places = fit.parameters.clone();
+    places.sort_by(f64::total_cmp);
+    let limit = FAR * usual(&fit.ratios, &without) * problem.tolerance;
+    let mut is_far = |j: usize| {
+        let after = others.partition_point(|&other| other < j);
+        let low = places[after.saturating_sub(NEIGHBOURS)];
+        let high = places[(after + NEIGHBOURS).min(places.len() - 1)];
+        let mut t = places[after.min(places.len() - 1)];
+        let mut distance = f64::INFINITY;
+        for _ in 0..SETTLING {
+            (t, distance) = curve.foot(problem.point(j), t, (low, high));
+        }
+        // A point before the first of the others, or after the last, is farther by a step or two.
+        let step = |leg: usize| 2.0 * without.polyline().leg_length(leg);
+        let beyond = match after {
+            _ if problem.closed => 0.0,
+            0 => step(0),
+            _ if after == others.len() => step(others.len() - 2),
+            _ => 0.0,
+        };
+        distance > limit + beyond
+    };
+    Ok(suspects.into_iter().filter(|&j| is_far(j)).collect())
 }
 
 impl Attempt {
