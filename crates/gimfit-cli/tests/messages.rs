@@ -173,7 +173,15 @@ fn a_shape_that_forbids_the_residual_is_told_with_what_to_do() {
     let report = place.document("fit.json")["report"].clone();
     assert_eq!(report["termination"], "constrained");
     let shape = serde_json::json!(
-        {"left": 6, "right": 0, "straight": 0, "inserted_knots": 0, "kept": true}
+        {
+            "left": 6,
+            "right": 0,
+            "straight": 0,
+            "control_left": 6,
+            "control_right": 0,
+            "inserted_knots": 0,
+            "kept": true
+        }
     );
     assert_eq!(report["shape"], shape);
     let ran = place.run("curve corner.csv --convex=published").code(1);
