@@ -1,6 +1,6 @@
 //! Lines of a report that a person reads: a label, then a sentence.
 
-use gimfit::RunReport;
+use gimfit::{ApproximationReport, RunReport};
 use gimfit_io::document::Seconds;
 use std::fmt::Write;
 
@@ -101,9 +101,56 @@ impl Lines {
         }
     }
 
+    /// What an approximation achieved; `asked` tells whether a distance was, `between` what the fit
+    /// stays near between the points.
+    pub(crate) fn approximation(
+        &mut self,
+        account: &ApproximationReport,
+        asked: bool,
+        between: &str,
+        place: impl Fn(usize) -> String,
+    ) {
+        self.add(
+            "distance",
+            &format!(
+                "largest {:.3e}, rms {:.3e}, mean {:.3e}{}",
+                account.max_distance,
+                account.rms_distance,
+                account.mean_distance,
+                match (asked, account.met) {
+                    (false, _) => "",
+                    (true, true) => ": within what was asked",
+                    (true, false) => ": more than was asked",
+                }
+            ),
+        );
+        let worst: Vec<String> = account.worst.iter().map(|&j| place(j)).collect();
+        self.add("", &format!("the largest at {}", worst.join(", ")));
+        self.add(
+            "between",
+            &format!(
+                "at most {:.3e} from {between}, {} (up to {:.3e} is)",
+                account.overshoot,
+                if account.is_calm() { "calm" } else { "which is not calm" },
+                account.calm_limit
+            ),
+        );
+        if !account.corners.is_empty() {
+            let corners: Vec<String> = account.corners.iter().map(|&j| place(j)).collect();
+            self.add("corners", &format!("{} kept sharp: {}", corners.len(), listed(&corners)));
+        }
+    }
+
     pub(crate) fn finish(self) -> String {
         self.0
     }
+}
+
+/// The first few of a list.
+pub(crate) fn listed(names: &[String]) -> String {
+    const SHOWN: usize = 8;
+    let shown = names[..names.len().min(SHOWN)].join(", ");
+    if names.len() > SHOWN { format!("{shown}, and {} more", names.len() - SHOWN) } else { shown }
 }
 
 /// What [`Lines::run`] tells of.

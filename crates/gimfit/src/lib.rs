@@ -65,11 +65,12 @@ pub use fit::{
     BlendingSurfaceOptions, Convexity, Corners, CurveDiagnosis, CurveFit, CurveOptions, EditReport,
     EditableCurve, EditableSurface, Goal, IterationWeight, KeptFit, KeptFootPoints,
     LeastSquaresKnots, LeastSquaresMethod, LeastSquaresOptions, LeastSquaresSurfaceOptions,
-    LeastSquaresWeight, Method, Robust, SurfaceEditReport, SurfaceFit, SurfaceOptions,
-    SurfaceWeight, TriangleFit, TriangleOptions, approximate_curve, approximate_curve_observed,
-    diagnose_blending_curve, diagnose_curve, fit_blending_curve, fit_blending_surface, fit_curve,
-    fit_curve_observed, fit_least_squares, fit_least_squares_observed, fit_least_squares_surface,
-    fit_surface, fit_surface_observed, fit_triangular_patch,
+    LeastSquaresWeight, Method, Robust, SurfaceApproximationOptions, SurfaceEditReport, SurfaceFit,
+    SurfaceGoal, SurfaceOptions, SurfaceWeight, TriangleFit, TriangleOptions, approximate_curve,
+    approximate_curve_observed, approximate_surface, diagnose_blending_curve, diagnose_curve,
+    fit_blending_curve, fit_blending_surface, fit_curve, fit_curve_observed, fit_least_squares,
+    fit_least_squares_observed, fit_least_squares_surface, fit_surface, fit_surface_observed,
+    fit_triangular_patch,
 };
 pub use fit::{SurfaceDiagnosis, diagnose_blending_surface, diagnose_surface};
 pub use geometry::{BlendingCurve, BlendingSurface, Curve, Surface, TriangularPatch};
@@ -116,6 +117,7 @@ mod pages {
         Pia: "docs/methods/pia.md",
         Preconditioned: "docs/methods/preconditioned.md",
         Stopping: "docs/methods/stopping.md",
+        SurfaceApproximation: "docs/methods/surface-approximation.md",
         Surfaces: "docs/methods/surfaces.md",
         Triangular: "docs/methods/triangular.md",
         Weighted: "docs/methods/weighted.md",

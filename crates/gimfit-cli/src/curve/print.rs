@@ -1,8 +1,8 @@
 //! The report that a person reads.
 
 use super::Job;
-use crate::report_text::{Lines, RunLines};
-use gimfit::{ApproximationReport, ShapeReport};
+use crate::report_text::{Lines, RunLines, listed};
+use gimfit::ShapeReport;
 
 /// A few lines: what was read, chosen, run, found and written.
 pub(super) fn report(job: &Job<'_>, written: &[String]) -> String {
@@ -39,7 +39,17 @@ pub(super) fn report(job: &Job<'_>, written: &[String]) -> String {
         lines.add("shape", &shape_line(shape));
     }
     if let Some(account) = &report.approximation {
-        approximation(&mut lines, job, account);
+        lines.approximation(
+            account,
+            report.run.residual_target > 0.0,
+            "the polyline of the points",
+            |j| place(job, j),
+        );
+        if !account.outliers.is_empty() {
+            let rows: Vec<String> =
+                account.outliers.iter().map(|&row| table.row_name(row)).collect();
+            lines.add("outliers", &format!("{} left out: {}", rows.len(), listed(&rows)));
+        }
     }
     lines.run(&RunLines {
         run: &report.run,
@@ -86,51 +96,6 @@ fn shape_line(shape: &ShapeReport) -> String {
         );
     }
     line
-}
-
-/// What an approximation achieved.
-fn approximation(lines: &mut Lines, job: &Job<'_>, account: &ApproximationReport) {
-    lines.add(
-        "distance",
-        &format!(
-            "largest {:.3e}, rms {:.3e}, mean {:.3e}{}",
-            account.max_distance,
-            account.rms_distance,
-            account.mean_distance,
-            match (job.fit.report.run.residual_target > 0.0, account.met) {
-                (false, _) => "",
-                (true, true) => ": within what was asked",
-                (true, false) => ": more than was asked",
-            }
-        ),
-    );
-    let worst: Vec<String> = account.worst.iter().map(|&j| place(job, j)).collect();
-    lines.add("", &format!("the largest at {}", worst.join(", ")));
-    lines.add(
-        "between",
-        &format!(
-            "at most {:.3e} from the polyline of the points, {} (up to {:.3e} is)",
-            account.overshoot,
-            if account.is_calm() { "calm" } else { "which is not calm" },
-            account.calm_limit
-        ),
-    );
-    if !account.outliers.is_empty() {
-        let rows: Vec<String> =
-            account.outliers.iter().map(|&row| job.table.row_name(row)).collect();
-        lines.add("outliers", &format!("{} left out: {}", rows.len(), listed(&rows)));
-    }
-    if !account.corners.is_empty() {
-        let corners: Vec<String> = account.corners.iter().map(|&j| place(job, j)).collect();
-        lines.add("corners", &format!("{} kept sharp: {}", corners.len(), listed(&corners)));
-    }
-}
-
-/// The first few of a list.
-fn listed(names: &[String]) -> String {
-    const SHOWN: usize = 8;
-    let shown = names[..names.len().min(SHOWN)].join(", ");
-    if names.len() > SHOWN { format!("{shown}, and {} more", names.len() - SHOWN) } else { shown }
 }
 
 /// The row of a fitted point, as the file numbers it.

@@ -1,6 +1,7 @@
 //! What can be typed after `gimfit surface`. Choices for the two directions are given as one, for
 //! both, or as two with a comma between: u (rows), then v (columns).
 
+use super::approximation::SurfaceApproximationArguments;
 use super::edit::GridMove;
 use crate::arguments::{BasisChoice, IterationArguments, KnotRule, RuleOrFile, WritingArguments};
 use clap::{Args, ValueEnum};
@@ -19,7 +20,8 @@ Examples:
   gimfit surface hull.csv --degree 3,2 --parameters centripetal -o hull.json -o hull.png
   gimfit surface torus.csv --closed both --method pia --keep 0,3,15 -o torus.json
   gimfit surface peaks.csv --knots at-data --per-direction
-  gimfit surface heights.csv --move 8,5=4,7,120.5 -o edited.json"
+  gimfit surface heights.csv --move 8,5=4,7,120.5 -o edited.json
+  gimfit surface hull.csv --tolerance 0.01 -o hull.json"
 )]
 pub(crate) struct SurfaceArguments {
     #[command(flatten)]
@@ -35,6 +37,9 @@ pub(crate) struct SurfaceArguments {
         value_name = "WAY"
     )]
     pub(crate) convex: Option<String>,
+
+    #[command(flatten)]
+    pub(crate) approximation: SurfaceApproximationArguments,
 
     #[command(flatten)]
     pub(crate) iteration: IterationArguments,

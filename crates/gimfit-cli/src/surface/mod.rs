@@ -1,5 +1,6 @@
 //! `gimfit surface`: a surface through a grid of points.
 
+mod approximation;
 mod arguments;
 mod draw;
 mod edit;
@@ -18,6 +19,7 @@ use crate::progress::Progress;
 use crate::signal::{self, Stage};
 use anyhow::{anyhow, ensure};
 use gimfit::basis::BlendingBasis;
+use gimfit::fit::approximate_surface_observed;
 use gimfit::fit::fit_blending_surface_observed;
 use gimfit::iteration::Observer;
 use gimfit::{
@@ -105,11 +107,15 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
         && arguments.grid.parameters.is_none();
     let view = GridView::new([grid.rows, grid.columns], grid.dimension(), &grid.coordinates)
         .map_err(|error| explain(error, &grid))?;
+    let approximation = arguments.approximation.options(options.degrees, options.closed);
     let mut progress = Progress::new(arguments.writing.quiet, options.iterations);
     let clock = Instant::now();
-    let result = match &bases {
-        None => fit_surface_observed(view, &options, &mut progress).map(|fit| (fit, None)),
-        Some(bases) => blended(view, bases, &options, &mut progress),
+    let result = match (&bases, &approximation) {
+        (_, Some(options)) => {
+            approximate_surface_observed(view, options, &mut progress).map(|fit| (fit, None))
+        }
+        (None, None) => fit_surface_observed(view, &options, &mut progress).map(|fit| (fit, None)),
+        (Some(bases), None) => blended(view, bases, &options, &mut progress),
     };
     progress.finish();
     let (mut fit, blending) = result.map_err(|error| explain(error, &grid))?;
@@ -117,7 +123,7 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
     let fitted = clock.elapsed().as_secs_f64();
     signal::enter(Stage::Writing);
     fit.report.run.choices.splice(0..0, remarks);
-    if unused {
+    if unused && approximation.is_none() {
         fit.report.run.choices.push(
             "parameters: those in the file are left aside; --parameters axes takes them".into(),
         );
@@ -133,7 +139,10 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
         wanted,
         method: arguments.iteration.method,
         convex: None,
-        run: Run::of(&report.run, Sought::Residual),
+        run: Run::of(
+            &report.run,
+            if approximation.is_some() { Sought::Distance } else { Sought::Residual },
+        ),
     };
     finish.finish(&mut job, print::report)
 }

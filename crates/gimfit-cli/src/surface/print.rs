@@ -47,6 +47,14 @@ pub(super) fn report(job: &Job<'_>, written: &[String]) -> String {
         let index = local.outside_max_residual_index;
         place([index / columns, index % columns])
     });
+    if let Some(account) = &report.approximation {
+        lines.approximation(
+            account,
+            report.run.residual_target > 0.0,
+            "the cells of the grid",
+            |k| place([k / report.points[1], k % report.points[1]]),
+        );
+    }
     lines.run(&RunLines {
         run: &report.run,
         max_residual_place: place(report.max_residual_index),

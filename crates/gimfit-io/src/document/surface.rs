@@ -1,6 +1,6 @@
 //! Surfaces in documents.
 
-use super::{HistoryRow, PointRows, RunData, SurfaceBlendingData};
+use super::{ApproximationData, HistoryRow, PointRows, RunData, SurfaceBlendingData};
 use gimfit::{Error, KeptFit, KnotVector, PointGrid, Surface, SurfaceFit, SurfaceReport};
 use serde::{Deserialize, Serialize};
 
@@ -224,6 +224,9 @@ pub struct SurfaceReportData {
     pub max_deviation: f64,
     /// Row and column where it is met.
     pub max_deviation_index: [usize; 2],
+    /// What an approximation achieved; points are counted row by row.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub approximation: Option<ApproximationData>,
 }
 
 impl SurfaceReportData {
@@ -248,6 +251,7 @@ impl SurfaceReportData {
             max_residual_index: report.max_residual_index,
             max_deviation: report.max_deviation,
             max_deviation_index: report.max_deviation_index,
+            approximation: report.approximation.as_ref().map(ApproximationData::of),
         }
     }
 }

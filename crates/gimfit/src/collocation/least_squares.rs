@@ -43,6 +43,20 @@ impl DataRows {
         }
     }
 
+    /// The first control point that data point `j` sees, and the weights of it and those after it,
+    /// counted round a closed direction.
+    pub(super) fn entries(&self, j: usize) -> (usize, &[f64]) {
+        let order = self.degree + 1;
+        let first = self.first[j] as usize;
+        let first = if first < self.columns { first } else { first % self.columns };
+        (first, &self.weights[j * order..][..order])
+    }
+
+    /// Data points.
+    pub(super) fn points(&self) -> usize {
+        self.first.len()
+    }
+
     fn column(&self, first: i32, k: usize) -> usize {
         (first as usize + k) % self.columns
     }

@@ -172,6 +172,7 @@ pub fn fit_blending_surface_observed(
         max_residual_index: cell(norms.max_index),
         max_deviation: scale.undo(deviation),
         max_deviation_index: cell(deviation_index),
+        approximation: None,
     };
     Ok(BlendingSurfaceFit {
         surface,

@@ -66,7 +66,8 @@ pub fn diagnose_surface(
     }
     let size = Size::of(Extent::of(grid.points())?);
     let mut choices = Vec::new();
-    let (shape, data) = open_up(grid, &size, options, &mut choices);
+    let (shape, data) =
+        open_up(grid, &size, options.closed, &options.parameterizations, &mut choices);
     let dimension = grid.dimension();
     let data = size.scale.apply(&data);
     let view = GridView::new(shape, dimension, &data)?;

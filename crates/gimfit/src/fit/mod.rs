@@ -1,6 +1,7 @@
 //! The recipes: from points to a curve and a report. The only room that knows all others.
 
 mod approximate;
+mod approximate_surface;
 mod blending;
 mod blending_surface;
 mod convex;
@@ -27,6 +28,9 @@ mod triangle;
 
 pub use approximate::{
     ApproximationOptions, Corners, Goal, Robust, approximate_curve, approximate_curve_observed,
+};
+pub use approximate_surface::{
+    SurfaceApproximationOptions, SurfaceGoal, approximate_surface, approximate_surface_observed,
 };
 pub use blending::{BlendingCurveFit, fit_blending_curve, fit_blending_curve_observed};
 pub use blending_surface::{

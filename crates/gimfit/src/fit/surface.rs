@@ -87,7 +87,8 @@ pub fn fit_surface_observed(
     }
     let size = Size::of(Extent::of(grid.points())?);
     let mut choices = Vec::new();
-    let (shape, data) = open_up(grid, &size, options, &mut choices);
+    let (shape, data) =
+        open_up(grid, &size, options.closed, &options.parameterizations, &mut choices);
     let dimension = grid.dimension();
     let data = size.scale.apply(&data);
     let view = GridView::new(shape, dimension, &data)?;
@@ -190,6 +191,7 @@ pub fn fit_surface_observed(
         max_residual_index: cell(norms.max_index),
         max_deviation: scale.undo(max_deviation),
         max_deviation_index: cell(deviation_index),
+        approximation: None,
     };
     Ok(SurfaceFit {
         surface,
@@ -208,7 +210,8 @@ const CLOSING_GAP: f64 = 1e-9;
 pub(super) fn open_up<'a>(
     grid: GridView<'a>,
     size: &Size,
-    options: &SurfaceOptions,
+    closed: [bool; 2],
+    parameterizations: &[Option<Parameterization>; 2],
     choices: &mut Vec<String>,
 ) -> ([usize; 2], Cow<'a, [f64]>) {
     let [mut rows, mut columns] = grid.shape();
@@ -216,16 +219,16 @@ pub(super) fn open_up<'a>(
     let near = |a: &[f64], b: &[f64]| {
         a.iter().zip(b).fold(0.0, |sum: f64, (a, b)| sum.hypot(a - b)) <= limit
     };
-    let given = |k: usize| matches!(options.parameterizations[k], Some(Parameterization::Given(_)));
+    let given = |k: usize| matches!(parameterizations[k], Some(Parameterization::Given(_)));
     // Parameters that are given count the closing row in, or not; the caller knows.
-    if options.closed[0] && rows > 1 && !given(0) {
+    if closed[0] && rows > 1 && !given(0) {
         let repeats = (0..columns).all(|j| near(grid.point(0, j), grid.point(rows - 1, j)));
         if repeats {
             choices.push("closing: the last row repeats the first and is taken as the seam".into());
             rows -= 1;
         }
     }
-    if options.closed[1] && columns > 1 && !given(1) {
+    if closed[1] && columns > 1 && !given(1) {
         let repeats = (0..rows).all(|i| near(grid.point(i, 0), grid.point(i, columns - 1)));
         if repeats {
             choices

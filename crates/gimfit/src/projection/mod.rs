@@ -13,6 +13,7 @@ mod patch;
 mod pieces;
 mod query;
 mod surface;
+mod surface_correction;
 mod triangle;
 
 pub(crate) use correction::MovingCurve;
@@ -26,4 +27,5 @@ pub use surface::{
     SurfaceFootPoint, largest_surface_deviation, largest_surface_deviation_from,
     local_surface_foot_point,
 };
+pub(crate) use surface_correction::MovingSurface;
 pub use triangle::{largest_triangle_deviation, local_triangle_distance};

@@ -1,6 +1,6 @@
 //! The account of a surface fit.
 
-use super::RunReport;
+use super::{ApproximationReport, RunReport};
 use crate::iteration::HistoryEntry;
 
 /// The account of a surface fit. Pairs hold direction u (rows), then direction v (columns). Lengths
@@ -37,6 +37,9 @@ pub struct SurfaceReport {
     pub max_deviation: f64,
     /// Row and column where it is met.
     pub max_deviation_index: [usize; 2],
+    /// What an approximation achieved, with the worst points counted row by row; `None` for
+    /// interpolation.
+    pub approximation: Option<ApproximationReport>,
 }
 
 impl SurfaceReport {

@@ -4,7 +4,7 @@
 //! towards their foot points (parameter correction), and shifts weight to where the distance is
 //! largest (Lawson 1961), so that the largest distance falls rather than the mean.
 
-use super::breaks::{looks, relaxed};
+use super::breaks::{knots_of, looks, relaxed};
 use super::noise::CHANCE;
 use super::problem::{Guard, Measure, Problem};
 use super::sample::ROUND;
@@ -130,20 +130,7 @@ impl Attempt {
 
     /// The knot vector.
     pub(super) fn knots(&self, problem: &Problem<'_>) -> Result<KnotVector, Error> {
-        let p = problem.degree;
-        if problem.closed {
-            let count = self.breaks.len() as isize;
-            let around =
-                |i: isize| self.breaks[i.rem_euclid(count) as usize] + i.div_euclid(count) as f64;
-            return KnotVector::periodic(
-                p,
-                (-(p as isize)..=count + p as isize).map(around).collect(),
-            );
-        }
-        let mut knots = vec![0.0; p + 1];
-        knots.extend_from_slice(&self.breaks);
-        knots.extend(std::iter::repeat_n(1.0, p + 1));
-        KnotVector::open(p, knots)
+        knots_of(&self.breaks, problem.degree, problem.closed)
     }
 
     /// Parameter of a guard.

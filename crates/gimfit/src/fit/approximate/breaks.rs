@@ -8,7 +8,7 @@ use crate::knots::KnotVector;
 
 /// A density over the domain, as its cumulated share at breakpoints.
 #[derive(Debug)]
-pub(super) struct Density {
+pub(in crate::fit) struct Density {
     places: Vec<f64>,
     shares: Vec<f64>,
 }
@@ -35,12 +35,21 @@ impl Density {
     }
 
     /// Even density.
-    pub(super) fn even() -> Self {
+    pub(in crate::fit) fn even() -> Self {
         Self { places: vec![0.0, 1.0], shares: vec![0.0, 1.0] }
     }
 
+    /// The same with a part of it spread evenly.
+    pub(in crate::fit) fn evened(&self, part: f64) -> Self {
+        let first = self.places[0];
+        let even = |place: f64| place - first;
+        let shares = self.places.iter().zip(&self.shares);
+        let shares = shares.map(|(&place, share)| (1.0 - part) * share + part * even(place));
+        Self { places: self.places.clone(), shares: shares.collect() }
+    }
+
     /// `count` breakpoints with equal shares between them.
-    pub(super) fn place(&self, count: usize, closed: bool) -> Vec<f64> {
+    pub(in crate::fit) fn place(&self, count: usize, closed: bool) -> Vec<f64> {
         let parts = if closed { count } else { count + 1 };
         let first = usize::from(!closed);
         let mut places: Vec<f64> = (first..first + count)
@@ -66,19 +75,43 @@ impl Density {
 
 /// The ends of all spans: one more than there are spans.
 pub(super) fn span_ends(attempt: &Attempt, closed: bool) -> Vec<f64> {
+    ends_of(&attempt.breaks, closed)
+}
+
+/// As [`span_ends`], of breakpoints alone.
+pub(in crate::fit) fn ends_of(breaks: &[f64], closed: bool) -> Vec<f64> {
     if closed {
-        let mut ends = attempt.breaks.clone();
-        ends.extend(attempt.breaks.first().map(|first| first + 1.0));
+        let mut ends = breaks.to_vec();
+        ends.extend(breaks.first().map(|first| first + 1.0));
         return ends;
     }
     let mut ends = vec![0.0];
-    ends.extend_from_slice(&attempt.breaks);
+    ends.extend_from_slice(breaks);
     ends.push(1.0);
     ends
 }
 
+/// Inner knots of an open curve on [0, 1], or the knots in one period of a closed one, with all
+/// that belongs to them.
+pub(in crate::fit) fn knots_of(
+    breaks: &[f64],
+    degree: usize,
+    closed: bool,
+) -> Result<KnotVector, Error> {
+    if closed {
+        let count = breaks.len() as isize;
+        let around = |i: isize| breaks[i.rem_euclid(count) as usize] + i.div_euclid(count) as f64;
+        let reach = degree as isize;
+        return KnotVector::periodic(degree, (-reach..=count + reach).map(around).collect());
+    }
+    let mut knots = vec![0.0; degree + 1];
+    knots.extend_from_slice(breaks);
+    knots.extend(std::iter::repeat_n(1.0, degree + 1));
+    KnotVector::open(degree, knots)
+}
+
 /// The span, of those with these ends, that holds a parameter.
-pub(super) fn span_of(ends: &[f64], t: f64, closed: bool) -> usize {
+pub(in crate::fit) fn span_of(ends: &[f64], t: f64, closed: bool) -> usize {
     let t = if closed { ends[0] + (t - ends[0]).rem_euclid(1.0) } else { t };
     ends.partition_point(|&end| end <= t).clamp(1, ends.len() - 1) - 1
 }
@@ -87,8 +120,18 @@ pub(super) fn span_of(ends: &[f64], t: f64, closed: bool) -> usize {
 /// parts of the integral of the `(p + 1)`-th root of the next derivative.
 pub(super) fn density_of_jumps(attempt: &Attempt, problem: &Problem<'_>) -> Result<Density, Error> {
     let (jumps, ends) = jumps(attempt, problem)?;
+    Ok(density_after(&jumps, &ends, problem.degree, problem.closed))
+}
+
+/// As [`density_of_jumps`], from the jumps at the start of each span and the ends of the spans.
+pub(in crate::fit) fn density_after(
+    jumps: &[f64],
+    ends: &[f64],
+    degree: usize,
+    closed: bool,
+) -> Density {
     let spans = ends.len() - 1;
-    let root = 1.0 / (problem.degree as f64 + 1.0);
+    let root = 1.0 / (degree as f64 + 1.0);
     let length = |s: usize| ends[s + 1] - ends[s];
     // The jump between spans `s - 1` and `s`, spread over their halves.
     let strength = |before: usize, after: usize, jump: f64| {
@@ -98,12 +141,12 @@ pub(super) fn density_of_jumps(attempt: &Attempt, problem: &Problem<'_>) -> Resu
         .map(|s| {
             let mut sum = 0.0;
             let mut count = 0.0;
-            if s > 0 || problem.closed {
+            if s > 0 || closed {
                 let before = (s + spans - 1) % spans;
                 sum += strength(before, s, jumps[s]);
                 count += 1.0;
             }
-            if s + 1 < spans || problem.closed {
+            if s + 1 < spans || closed {
                 let after = (s + 1) % spans;
                 sum += strength(s, after, jumps[after]);
                 count += 1.0;
@@ -115,18 +158,30 @@ pub(super) fn density_of_jumps(attempt: &Attempt, problem: &Problem<'_>) -> Resu
     let mean = amounts.iter().sum::<f64>() / spans as f64;
     let floor = if mean > 0.0 { EVEN_SHARE * mean } else { 1.0 };
     amounts.iter_mut().for_each(|amount| *amount += floor);
-    Ok(Density::from_spans(&ends, &amounts))
+    Density::from_spans(ends, &amounts)
 }
 
 /// Breakpoints moved so that spans with large distances shrink and calm ones grow.
 pub(super) fn relaxed(attempt: &Attempt, problem: &Problem<'_>) -> Vec<f64> {
     let ends = span_ends(attempt, problem.closed);
-    let scores = scores(attempt, problem, &ends);
+    let mut scores = scores(attempt, problem, &ends);
     let top = scores.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-    let power = DAMPING / (problem.degree as f64 + 1.0);
+    scores.iter_mut().for_each(|score| *score /= top);
+    relaxed_after(&scores, &ends, problem.degree, problem.closed)
+}
+
+/// As [`relaxed`], from the largest distance of each span, over the largest of all.
+pub(in crate::fit) fn relaxed_after(
+    largest: &[f64],
+    ends: &[f64],
+    degree: usize,
+    closed: bool,
+) -> Vec<f64> {
+    let power = DAMPING / (degree as f64 + 1.0);
     let amounts: Vec<f64> =
-        scores.iter().map(|score| (score / top).clamp(LEAST_RATIO, 1.0).powf(power)).collect();
-    Density::from_spans(&ends, &amounts).place(attempt.breaks.len(), problem.closed)
+        largest.iter().map(|share| share.clamp(LEAST_RATIO, 1.0).powf(power)).collect();
+    let count = if closed { ends.len() - 1 } else { ends.len() - 2 };
+    Density::from_spans(ends, &amounts).place(count, closed)
 }
 
 /// How far each span is off: the largest ratio, or where means are judged their root, less what may
@@ -195,24 +250,44 @@ pub(super) fn looks(from: f64, to: f64, breaks: &[f64], closed: bool) -> Vec<f64
 /// What each breakpoint is worth: roughly how far the curve would move without it.
 pub(super) fn significance(attempt: &Attempt, problem: &Problem<'_>) -> Result<Vec<f64>, Error> {
     let (jumps, ends) = jumps(attempt, problem)?;
+    Ok(significance_after(&jumps, &ends, problem.degree, problem.closed))
+}
+
+/// As [`significance`], from the jumps at the start of each span and the ends of the spans.
+pub(in crate::fit) fn significance_after(
+    jumps: &[f64],
+    ends: &[f64],
+    degree: usize,
+    closed: bool,
+) -> Vec<f64> {
     let spans = ends.len() - 1;
     let worth = |after: usize| {
         let before = (after + spans - 1) % spans;
         let (a, b) = (ends[before + 1] - ends[before], ends[after + 1] - ends[after]);
-        jumps[after] * (0.5 * (a + b)).powi(problem.degree as i32)
+        jumps[after] * (0.5 * (a + b)).powi(degree as i32)
     };
-    let first = usize::from(!problem.closed);
-    Ok((first..first + attempt.breaks.len()).map(worth).collect())
+    (usize::from(!closed)..spans).map(worth).collect()
 }
 
 /// Norm of the jump of the `p`-th derivative at the start of each span, and the ends of the spans.
 fn jumps(attempt: &Attempt, problem: &Problem<'_>) -> Result<(Vec<f64>, Vec<f64>), Error> {
-    let (p, d) = (problem.degree, problem.dimension);
-    let knots: KnotVector = attempt.knots(problem)?;
+    let knots = attempt.knots(problem)?;
+    let ends = span_ends(attempt, problem.closed);
+    Ok((jumps_of(&knots, &attempt.control, problem.dimension, ends.len() - 1), ends))
+}
+
+/// Norm of the jump of the highest derivative at the start of each span, of which there are `spans`,
+/// from the control points that move; that at the start of an open curve has no meaning.
+pub(in crate::fit) fn jumps_of(
+    knots: &KnotVector,
+    control: &[f64],
+    dimension: usize,
+    spans: usize,
+) -> Vec<f64> {
+    let (p, d) = (knots.degree(), dimension);
     let values = knots.values();
     let stored = knots.control_points();
-    let mut derivative: Vec<f64> =
-        attempt.control.iter().copied().cycle().take(stored * d).collect();
+    let mut derivative: Vec<f64> = control.iter().copied().cycle().take(stored * d).collect();
     for order in 1..=p {
         let count = stored - order;
         for i in 0..count {
@@ -224,14 +299,11 @@ fn jumps(attempt: &Attempt, problem: &Problem<'_>) -> Result<(Vec<f64>, Vec<f64>
             }
         }
     }
-    let ends = span_ends(attempt, problem.closed);
-    let spans = ends.len() - 1;
-    let jumps = (0..spans)
+    (0..spans)
         .map(|s| {
             let before = (s + spans - 1) % spans;
             let (a, b) = (&derivative[before * d..][..d], &derivative[s * d..][..d]);
             super::polyline::distance(a, b)
         })
-        .collect();
-    Ok((jumps, ends))
+        .collect()
 }

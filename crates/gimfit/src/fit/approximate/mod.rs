@@ -2,13 +2,13 @@
 //! and parameters are sought as well.
 
 mod attempt;
-mod breaks;
+pub(super) mod breaks;
 mod corners;
 mod goal;
 mod noise;
 mod options;
 mod pieces;
-mod polyline;
+pub(super) mod polyline;
 mod problem;
 mod robust;
 mod sample;
@@ -16,6 +16,7 @@ mod search;
 mod verify;
 
 pub use options::{ApproximationOptions, Corners, Goal, Robust};
+pub(super) use problem::Measure;
 
 use super::CurveFit;
 use super::solve::{Size, unscaled};
@@ -30,7 +31,7 @@ use corners::{AUTO_ANGLE, find_corners};
 use goal::check_goal;
 use pieces::Piece;
 use polyline::Polyline;
-use problem::{Measure, Problem};
+use problem::Problem;
 
 /// Rounds times points that take about a second.
 const EFFORT: usize = 2_000_000;
@@ -39,7 +40,7 @@ const ROUNDS: std::ops::RangeInclusive<usize> = 200..=4000;
 /// A last point this close to the first, in units of the extent, repeats it.
 const CLOSING_GAP: f64 = 1e-9;
 /// Demands are met with this much to spare, so that rounding does not break them.
-const SPARE: f64 = 1.0 - 1e-6;
+pub(super) const SPARE: f64 = 1.0 - 1e-6;
 
 /// Finds a curve that keeps within a distance of ordered points, with as few control points as it
 /// can; or the closest one of a given size.
@@ -313,7 +314,7 @@ pub fn approximate_curve_observed<'a>(
 
 /// Moves the middle of the bounding box to the origin, so that far-off data lose no digits to their
 /// place; gives the middle.
-fn centre_at_origin(data: &mut [f64], dimension: usize) -> Vec<f64> {
+pub(super) fn centre_at_origin(data: &mut [f64], dimension: usize) -> Vec<f64> {
     let mut low = vec![f64::INFINITY; dimension];
     let mut high = vec![f64::NEG_INFINITY; dimension];
     for point in data.chunks_exact(dimension) {

@@ -2,25 +2,25 @@
 
 /// Ordered points joined by straight legs.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Polyline<'a> {
+pub(in crate::fit) struct Polyline<'a> {
     /// Shape (points, dimension).
-    pub(super) data: &'a [f64],
-    pub(super) dimension: usize,
-    pub(super) closed: bool,
+    pub(in crate::fit) data: &'a [f64],
+    pub(in crate::fit) dimension: usize,
+    pub(in crate::fit) closed: bool,
 }
 
 impl<'a> Polyline<'a> {
-    pub(super) fn points(&self) -> usize {
+    pub(in crate::fit) fn points(&self) -> usize {
         self.data.len() / self.dimension
     }
 
     /// Number of legs.
-    pub(super) fn legs(&self) -> usize {
+    pub(in crate::fit) fn legs(&self) -> usize {
         if self.closed { self.points() } else { self.points().saturating_sub(1) }
     }
 
     /// Point `j`, counted round a closed polyline.
-    pub(super) fn point(&self, j: usize) -> &'a [f64] {
+    pub(in crate::fit) fn point(&self, j: usize) -> &'a [f64] {
         let j = if j < self.points() { j } else { j % self.points() };
         &self.data[j * self.dimension..][..self.dimension]
     }
@@ -123,7 +123,7 @@ pub(super) fn natural_overshoot(polyline: &Polyline<'_>) -> f64 {
 }
 
 /// Slopes at the points, shape (points, dimension).
-fn akima_slopes(polyline: &Polyline<'_>, steps: &[f64]) -> Vec<f64> {
+pub(in crate::fit) fn akima_slopes(polyline: &Polyline<'_>, steps: &[f64]) -> Vec<f64> {
     let (points, d, legs) = (polyline.points(), polyline.dimension, polyline.legs());
     let mut slopes = vec![0.0; points * d];
     // A leg of no length has no direction; its neighbours decide.
@@ -159,7 +159,7 @@ fn akima_slopes(polyline: &Polyline<'_>, steps: &[f64]) -> Vec<f64> {
     slopes
 }
 
-pub(super) fn distance(a: &[f64], b: &[f64]) -> f64 {
+pub(in crate::fit) fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| (x - y) * (x - y)).sum::<f64>().sqrt()
 }
 

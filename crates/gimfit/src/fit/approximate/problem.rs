@@ -6,7 +6,7 @@ use super::polyline::{Polyline, natural_overshoot};
 
 /// How the distance is judged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Measure {
+pub(in crate::fit) enum Measure {
     /// By the largest distance of a data point.
     Largest,
     /// By the root of the mean squared distance.

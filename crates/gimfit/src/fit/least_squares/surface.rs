@@ -11,12 +11,12 @@ use super::{
 };
 use crate::Error;
 use crate::collocation::{CollocationOperator, LeastSquaresCollocation, NetLayout};
+use crate::fit::SurfaceFit;
 use crate::fit::curve::parameterization_name;
 use crate::fit::net::overall;
 use crate::fit::prepare::check_extent;
 use crate::fit::solve::{Size, norm, unscaled};
 use crate::fit::surface::open_up;
-use crate::fit::{SurfaceFit, SurfaceOptions};
 use crate::geometry::Surface;
 use crate::iteration::{HistoryEntry, NoObserver};
 use crate::knots::{KnotVector, check_degree};
@@ -121,12 +121,8 @@ pub fn fit_least_squares_surface(
     let size = Size::of(Extent::of(grid.points())?);
     check_extent(&size.extent)?;
     let mut choices = Vec::new();
-    let closing = SurfaceOptions {
-        closed: options.closed,
-        parameterizations: options.parameterizations.clone(),
-        ..SurfaceOptions::default()
-    };
-    let (shape, data) = open_up(grid, &size, &closing, &mut choices);
+    let parameterizations = &options.parameterizations;
+    let (shape, data) = open_up(grid, &size, options.closed, parameterizations, &mut choices);
     let dimension = grid.dimension();
     let data = size.scale.apply(&data).into_owned();
     let view = GridView::new(shape, dimension, &data)?;
@@ -197,6 +193,7 @@ pub fn fit_least_squares_surface(
         max_residual_index: cell(worst),
         max_deviation: undo(max_deviation),
         max_deviation_index: cell(deviation_index),
+        approximation: None,
     };
     Ok(SurfaceFit {
         surface,
