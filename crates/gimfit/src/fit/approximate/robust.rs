@@ -39,7 +39,7 @@ pub(super) fn outliers(
     }
     // An outlier misleads the parameters of its neighbours: they are judged by a curve without it.
     let data: Vec<f64> = others.iter().flat_map(|&j| problem.point(j)).copied().collect();
-    let mut without = Problem::new(
+    let without = Problem::new(
         &data,
         problem.dimension,
         problem.degree,
@@ -47,7 +47,6 @@ pub(super) fn outliers(
         problem.measure,
         problem.tolerance,
     );
-    without.robust = problem.robust;
     let fit = sample::grown(&without, breaks, effort)?;
     let knots = fit.knots(&without)?;
     let mut curve = MovingCurve::new(&knots, &fit.control, problem.dimension);
