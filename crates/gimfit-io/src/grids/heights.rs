@@ -181,8 +181,10 @@ mod tests {
     #[test]
     fn every_spelling_of_nothing_is_a_hole_and_infinity_is_not() {
         let mut tally = Tally::default();
+        let mut row = 1;
         let mut read = |cell: &str| {
-            let place = || CellPlace { line: 3, cell: 1, row: 2, column: 1 };
+            row += 1;
+            let place = || CellPlace { line: 3, cell: 1, row, column: 1 };
             tally.height(cell, DecimalMark::Point, Some(-9999.0), place)
         };
         for cell in ["", "NaN", "-nan", "NA", "-", "-9999.0"] {
@@ -193,8 +195,8 @@ mod tests {
         let error = tally.refuse_holes(10, "f").unwrap_err().to_string();
         assert!(
             error.starts_with(
-                "f, line 3, column 2: 6 of 10 cells hold no data, the first of them row 3, column 2 \
-                 of the grid;"
+                "f, line 3, column 2: 6 of 10 cells hold no data (row 3, column 2; row 4, column 2; \
+                 row 5, column 2; row 6, column 2; row 7, column 2; row 8, column 2);"
             ),
             "{error}"
         );
