@@ -55,7 +55,7 @@ impl ScaledGoal {
                 rule: "there is none to be seen; state a tolerance, or the standard deviation",
             });
         }
-        let across = polyline.dimension.max(2) as f64 - 1.0;
+        let across = polyline.across();
         let tolerance = deviation * across.sqrt();
         let spare = if given.is_some() { SPARE_GIVEN } else { SPARE_ESTIMATED };
         self.measure = Measure::Noise;

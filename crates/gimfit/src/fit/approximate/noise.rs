@@ -156,22 +156,11 @@ pub(super) fn smoothed_parameters(polyline: &Polyline<'_>, deviation: f64) -> (V
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Numbers that look like noise of standard deviation 1.
-    fn noise(seed: u32) -> impl FnMut() -> f64 {
-        let mut state = u64::from(seed);
-        move || {
-            let mut uniform = || {
-                state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-                (state >> 40) as f64 / (1u64 << 24) as f64
-            };
-            (0..12).map(|_| uniform()).sum::<f64>() - 6.0
-        }
-    }
+    use gimfit_testkit::generate::Random;
 
     #[test]
     fn the_noise_of_a_helix_is_found_whatever_the_steps() {
-        let mut noise = noise(1);
+        let mut random = Random::new(1);
         for deviation in [1e-2, 1e-3, 1e-4] {
             for count in [400, 20_000] {
                 for uneven in [0.0, 0.9] {
@@ -179,7 +168,7 @@ mod tests {
                     for j in 0..count {
                         let t = (f64::from(j) + uneven * f64::from(j % 2)) / f64::from(count);
                         let point = [(6.0 * t).cos(), (6.0 * t).sin(), t];
-                        data.extend(point.map(|x| x + deviation * noise()));
+                        data.extend(point.map(|x| x + deviation * random.normal()));
                     }
                     let polyline = Polyline { data: &data, dimension: 3, closed: false };
                     let found = super::deviation(&polyline);
@@ -195,7 +184,7 @@ mod tests {
 
     #[test]
     fn parameters_of_noisy_points_are_those_of_the_curve() {
-        let mut noise = noise(2);
+        let mut random = Random::new(2);
         let count = 20_000;
         // Twice as fast in the second half.
         let place = |j: i32| {
@@ -203,7 +192,7 @@ mod tests {
             if t < 0.5 { t } else { 2.0 * t - 0.5 }
         };
         let data: Vec<f64> =
-            (0..count).flat_map(|j| [place(j), 0.0].map(|x| x + 1e-3 * noise())).collect();
+            (0..count).flat_map(|j| [place(j), 0.0].map(|x| x + 1e-3 * random.normal())).collect();
         let polyline = Polyline { data: &data, dimension: 2, closed: false };
         let (parameters, shift) = smoothed_parameters(&polyline, 1e-3);
         let off = (0..count).map(|j| (parameters[j as usize] - place(j) / 1.5).abs());

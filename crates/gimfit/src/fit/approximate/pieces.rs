@@ -1,6 +1,7 @@
 //! Data in smooth pieces between corners, and the pieces joined again into one curve.
 
 use super::attempt::Attempt;
+use super::breaks::knots_of;
 use super::polyline::{Polyline, natural_overshoot};
 use crate::Error;
 use crate::knots::{Boundary, KnotVector};
@@ -69,11 +70,7 @@ pub(super) fn join(
         found.iter().map(|(piece, _)| natural_overshoot(&piece.polyline())).fold(0.0, f64::max);
     if closed {
         let (_, attempt) = &found[0];
-        let count = attempt.breaks.len() as isize;
-        let around =
-            |i: isize| attempt.breaks[i.rem_euclid(count) as usize] + i.div_euclid(count) as f64;
-        let p = degree as isize;
-        let knots = KnotVector::periodic(degree, (-p..=count + p).map(around).collect())?;
+        let knots = knots_of(&attempt.breaks, degree, true)?;
         debug_assert_eq!(knots.boundary(), Boundary::Periodic);
         let stored = knots.control_points() * dimension;
         let control = attempt.control.iter().copied().cycle().take(stored).collect();

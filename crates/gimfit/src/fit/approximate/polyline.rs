@@ -25,6 +25,11 @@ impl<'a> Polyline<'a> {
         &self.data[j * self.dimension..][..self.dimension]
     }
 
+    /// Directions across a curve: of the noise in a point, as many coordinates are seen.
+    pub(super) fn across(&self) -> f64 {
+        self.dimension.max(2) as f64 - 1.0
+    }
+
     /// Length of leg `j`, from point `j` to the next.
     pub(super) fn leg_length(&self, j: usize) -> f64 {
         distance(self.point(j), self.point(j + 1))

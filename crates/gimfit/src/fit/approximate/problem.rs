@@ -125,7 +125,7 @@ impl<'a> Problem<'a> {
 
     /// Directions across the curve: of the noise in a point, as many coordinates are seen.
     pub(super) fn across(&self) -> f64 {
-        self.dimension.max(2) as f64 - 1.0
+        self.polyline().across()
     }
 
     /// What the mean of the squared ratios of this many points may be by chance.

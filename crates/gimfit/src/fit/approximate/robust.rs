@@ -38,7 +38,7 @@ pub(super) fn outliers(
         return Ok(suspects);
     }
     // An outlier misleads the parameters of its neighbours: they are judged by a curve without it.
-    let data: Vec<f64> = others.iter().flat_map(|&j| problem.point(j)).copied().collect();
+    let data = sample::gather(problem, &others);
     let without = Problem::new(
         &data,
         problem.dimension,

@@ -137,7 +137,8 @@ fn first_sample(whole: &Problem<'_>) -> Vec<usize> {
     sample
 }
 
-fn gather(whole: &Problem<'_>, sample: &[usize]) -> Vec<f64> {
+/// Coordinates of some of the points.
+pub(super) fn gather(whole: &Problem<'_>, sample: &[usize]) -> Vec<f64> {
     sample.iter().flat_map(|&j| whole.point(j)).copied().collect()
 }
 
