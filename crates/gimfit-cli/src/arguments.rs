@@ -3,8 +3,9 @@
 
 use crate::curve::edit::EditArguments;
 use crate::curve::{ApproximationArguments, LeastSquaresArguments};
+use crate::diagnose::{DiagnoseArguments, DiagnoseGridArguments, GRID_DIAGNOSIS};
 use crate::evaluate::SampleCount;
-use crate::surface::{GridArguments, SurfaceArguments};
+use crate::surface::SurfaceArguments;
 use crate::triangle::TriangleArguments;
 use crate::values;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -12,7 +13,6 @@ use gimfit::Duplicates;
 use gimfit_io::grids::parse_shape;
 use gimfit_io::points::{ColumnChoice, DecimalMark, Delimiter, FormatChoice, PartChoice};
 use std::convert::Infallible;
-use std::ffi::OsString;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -331,85 +331,6 @@ pub(crate) struct WritingArguments {
     /// With --json: print geometry, parameters and kept fits too
     #[arg(long, requires = "json", help_heading = "Writing")]
     pub(crate) geometry: bool,
-}
-
-#[derive(Debug, Args)]
-#[command(after_help = "Exit status: 0 done; 2 wrong usage or input; 130 interrupted.
-
-Examples:
-  gimfit diagnose airfoil.dat
-  gimfit diagnose track.gpx --columns east,north --degree 5 --tolerance 0.01
-  gimfit diagnose coast.csv --closed --json
-  gimfit diagnose heights.csv --grid")]
-pub(crate) struct DiagnoseArguments {
-    #[command(flatten)]
-    pub(crate) input: InputArguments,
-
-    #[command(flatten)]
-    pub(crate) shape: ShapeArguments,
-
-    /// POINTS is a grid, for a surface: it is read as by gimfit surface, with the options of that
-    /// command on reading and on the surface (gimfit diagnose --grid --help)
-    #[arg(long, help_heading = "Diagnosis")]
-    pub(crate) grid: bool,
-
-    /// Residual to which steps are predicted, in the unit of the points [default: 1e-12 of the
-    /// extent, or what rounding allows]
-    #[arg(
-        long,
-        value_name = "T",
-        value_parser = values::number,
-        allow_negative_numbers = true,
-        help_heading = "Diagnosis"
-    )]
-    pub(crate) tolerance: Option<f64>,
-
-    /// Print as JSON, with all eigenvalues where there are few
-    #[arg(long, help_heading = "Diagnosis")]
-    pub(crate) json: bool,
-}
-
-#[derive(Debug, Args)]
-#[command(after_help = "Exit status: 0 done; 2 wrong usage or input; 130 interrupted.
-
-Examples:
-  gimfit diagnose --grid heights.csv
-  gimfit diagnose --grid hull.csv --degree 3,2 --parameters chord,uniform --closed v")]
-pub(crate) struct DiagnoseGridArguments {
-    #[command(flatten)]
-    pub(crate) grid: GridArguments,
-
-    /// Residual to which steps are predicted, in the unit of the points [default: 1e-12 of the
-    /// extent, or what rounding allows]
-    #[arg(
-        long,
-        value_name = "T",
-        value_parser = values::number,
-        allow_negative_numbers = true,
-        help_heading = "Diagnosis"
-    )]
-    pub(crate) tolerance: Option<f64>,
-
-    /// Print as JSON
-    #[arg(long, help_heading = "Diagnosis")]
-    pub(crate) json: bool,
-}
-
-/// The command that `gimfit diagnose --grid` is: grids have options of their own.
-const GRID_DIAGNOSIS: &str = "diagnose-grid";
-
-/// The arguments with `diagnose` and `--grid` taken for one command.
-pub(crate) fn routed(arguments: impl Iterator<Item = OsString>) -> Vec<OsString> {
-    let mut all: Vec<OsString> = arguments.collect();
-    let options = all.iter().position(|one| one == "--").unwrap_or(all.len());
-    let grid = all[..options].iter().position(|one| one == "--grid");
-    if let Some(grid) = grid
-        && all[1] == "diagnose"
-    {
-        all.remove(grid);
-        all[1] = GRID_DIAGNOSIS.into();
-    }
-    all
 }
 
 /// A named rule, or a file that gives the numbers.

@@ -39,7 +39,7 @@ enum Ending {
 }
 
 fn main() -> ExitCode {
-    let arguments = Arguments::try_parse_from(arguments::routed(std::env::args_os()))
+    let arguments = Arguments::try_parse_from(diagnose::routed(std::env::args_os()))
         .unwrap_or_else(|error| output::usage(&error));
     let result = match arguments.command {
         Command::Curve(arguments) => curve::run(&arguments),

@@ -1,7 +1,7 @@
 //! The same for grids: each direction, and both at once.
 
+use super::DiagnoseGridArguments;
 use super::{json, print};
-use crate::arguments::DiagnoseGridArguments;
 use crate::basis::described;
 use crate::input::check_standard_input;
 use crate::report_text::Lines;
@@ -30,7 +30,7 @@ const DIRECTIONS: [(&str, &str); 2] = [("u", "row"), ("v", "column")];
 pub(crate) fn run(arguments: &DiagnoseGridArguments) -> anyhow::Result<Ending> {
     check_standard_input(&form_inputs(&arguments.grid))?;
     let Form { grid, options, bases, remarks } = form(&arguments.grid)?;
-    let options = SurfaceOptions { residual: arguments.tolerance, ..options };
+    let options = SurfaceOptions { residual: arguments.target.tolerance, ..options };
     let explain = |error| explain(error, &grid);
     let view = GridView::new([grid.rows, grid.columns], grid.dimension(), &grid.coordinates)
         .map_err(explain)?;

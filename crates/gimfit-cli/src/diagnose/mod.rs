@@ -1,11 +1,13 @@
 //! `gimfit diagnose`: how a fit would go, told before any run.
 
 mod advice;
+mod arguments;
 pub(crate) mod grid;
 mod json;
 mod print;
 
-use crate::arguments::DiagnoseArguments;
+pub(crate) use arguments::{DiagnoseArguments, DiagnoseGridArguments, GRID_DIAGNOSIS, routed};
+
 use crate::basis::described;
 use crate::curve::{Shape, explain_fit, shape};
 use crate::explain::explain;
@@ -40,7 +42,7 @@ impl Case<'_> {
 
 pub(crate) fn run(arguments: &DiagnoseArguments) -> anyhow::Result<Ending> {
     let Shape { table, options, basis } = shape(&arguments.input, &arguments.shape)?;
-    let options = CurveOptions { residual: arguments.tolerance, ..options };
+    let options = CurveOptions { residual: arguments.target.tolerance, ..options };
     let view = PointsView::new(table.dimension(), &table.coordinates)
         .map_err(|error| explain(error, &table))?;
     let result = match &basis {
