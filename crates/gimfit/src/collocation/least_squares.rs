@@ -130,6 +130,12 @@ impl NormalEquations {
         self.right.iter_mut().zip(start).for_each(|(b, p)| *b += pull * p);
     }
 
+    /// Adds a multiple of a band laid out like this one.
+    #[allow(dead_code)]
+    pub(super) fn add_band(&mut self, factor: f64, band: &[f64]) {
+        self.band.iter_mut().zip(band).for_each(|(entry, other)| *entry += factor * other);
+    }
+
     /// Fixes a control point.
     pub(crate) fn pin(&mut self, index: usize, point: &[f64]) {
         let (width, dimension) = (2 * self.degree + 1, self.dimension);

@@ -7,6 +7,9 @@ mod build;
 mod chosen;
 mod dense;
 mod dense_factor;
+// Fairing and surfaces over clouds come next.
+#[allow(dead_code)]
+mod energy;
 mod factor;
 mod folded;
 mod grid;
@@ -30,6 +33,8 @@ pub(crate) use build::wrap;
 pub use build::{Interpolation, interpolation};
 pub(crate) use chosen::ChosenCollocation;
 pub use dense::{DenseCollocation, MAX_DENSE_POINTS};
+#[allow(unused_imports)]
+pub(crate) use energy::EnergyBand;
 pub use factor::Factorization;
 pub use grid::{AcrossCollocation, AlongCollocation, TensorCollocation};
 pub use layout::{ControlLayout, NetLayout};
