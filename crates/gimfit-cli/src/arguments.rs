@@ -1,10 +1,12 @@
 //! What can be typed, as clap reads it. Values that mean one of several things, such as a rule or a
 //! file, are told apart here.
 
+use crate::choose::{ChooseArguments, ChooseGridArguments};
 use crate::curve::edit::EditArguments;
 use crate::curve::{ApproximationArguments, LeastSquaresArguments};
-use crate::diagnose::{DiagnoseArguments, DiagnoseGridArguments, GRID_DIAGNOSIS};
+use crate::diagnose::{DiagnoseArguments, DiagnoseGridArguments};
 use crate::evaluate::SampleCount;
+use crate::routes::{GRID_CHOICES, GRID_DIAGNOSIS};
 use crate::surface::SurfaceArguments;
 use crate::triangle::TriangleArguments;
 use crate::values;
@@ -42,6 +44,11 @@ pub(crate) enum Command {
     /// Tell how a fit of a grid would go, before any run
     #[command(name = GRID_DIAGNOSIS, override_usage = "gimfit diagnose --grid [OPTIONS] <GRID>", hide = true)]
     DiagnoseGrid(Box<DiagnoseGridArguments>),
+    /// List fits from few control points to many, each with its error, to choose from
+    Choose(Box<ChooseArguments>),
+    /// List fits of a grid from few control points to many
+    #[command(name = GRID_CHOICES, override_usage = "gimfit choose --grid [OPTIONS] <GRID>", hide = true)]
+    ChooseGrid(Box<ChooseGridArguments>),
     /// Sample a fitted curve, surface or triangular patch
     Evaluate(EvaluateArguments),
     /// Find the nearest points of a fitted curve or surface

@@ -9,6 +9,15 @@ const PLACES: [&str; 2] = ["{k}", "{iteration}"];
 /// Most files written by one run: each is held open until all are complete.
 const MOST_FILES: usize = 500;
 
+/// Which fits have files of their own.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Keep<'a> {
+    /// Those after these iterations.
+    Iterations(&'a [usize]),
+    /// All that are found, by their numbers of control points.
+    Sizes,
+}
+
 /// An output that is one file for each kept fit.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Family<'a>(&'a str);
@@ -27,14 +36,16 @@ impl<'a> Family<'a> {
     }
 
     /// What is told of the files.
-    pub(crate) fn wrote(self, members: &[usize]) -> String {
+    pub(crate) fn wrote(self, keep: Keep<'_>, members: &[usize]) -> String {
         let numbers: Vec<String> = members.iter().map(ToString::to_string).collect();
-        match numbers.as_slice() {
-            [] => format!("{}: no file, because the run reached none of the fits to keep", self.0),
-            [one] => format!("{}: the kept fit of iteration {one}", self.0),
-            several => {
-                format!("{}: the kept fits of iterations {}", self.0, several.join(", "))
+        let list = numbers.join(", ");
+        match (keep, numbers.len()) {
+            (_, 0) => {
+                format!("{}: no file, because the run reached none of the fits to keep", self.0)
             }
+            (Keep::Iterations(_), 1) => format!("{}: the kept fit of iteration {list}", self.0),
+            (Keep::Iterations(_), _) => format!("{}: the kept fits of iterations {list}", self.0),
+            (Keep::Sizes, _) => format!("{}: the fits with {list} control points", self.0),
         }
     }
 }
@@ -45,8 +56,12 @@ pub(crate) fn has_place(path: &Path) -> bool {
 }
 
 /// The files that an output stands for.
-pub(crate) fn files(path: &Path, keep: &[usize]) -> anyhow::Result<Vec<PathBuf>> {
+pub(crate) fn files(path: &Path, keep: Keep<'_>) -> anyhow::Result<Vec<PathBuf>> {
     let Some(family) = Family::of(path) else { return Ok(vec![path.to_path_buf()]) };
+    let Keep::Iterations(keep) = keep else {
+        // One of them stands for all, whose numbers the run will tell.
+        return Ok(vec![family.file(0)]);
+    };
     ensure!(
         !keep.is_empty(),
         "{} is a file for each kept fit; say which with --keep, such as --keep 0,2,4",
@@ -71,9 +86,10 @@ mod tests {
     #[test]
     fn every_place_is_filled_and_repeated_iterations_count_once() {
         let name = Path::new("a-{k}/b{iteration}.json");
-        let files = files(name, &[4, 0, 4]).unwrap();
+        let files = files(name, Keep::Iterations(&[4, 0, 4])).unwrap();
         assert_eq!(files, [PathBuf::from("a-0/b0.json"), PathBuf::from("a-4/b4.json")]);
-        assert!(super::files(name, &[]).unwrap_err().to_string().contains("--keep"));
-        assert_eq!(super::files(Path::new("k.json"), &[]).unwrap(), [PathBuf::from("k.json")]);
+        let none = Keep::Iterations(&[]);
+        assert!(super::files(name, none).unwrap_err().to_string().contains("--keep"));
+        assert_eq!(super::files(Path::new("k.json"), none).unwrap(), [PathBuf::from("k.json")]);
     }
 }

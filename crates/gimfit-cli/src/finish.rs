@@ -52,6 +52,30 @@ pub(crate) enum Sought {
     LeastSquares,
 }
 
+/// Writes the files and prints what is asked for; `text` makes the report of the lines on what was
+/// written.
+pub(crate) fn present<P: Product>(
+    product: &mut P,
+    wanted: Wanted<'_>,
+    text: impl FnOnce(&P, &[String]) -> String,
+) -> anyhow::Result<()> {
+    let mut outputs = Outputs::prepare(product, wanted)?;
+    let text = text(product, &outputs.written);
+    let text = output::printable(&text);
+    outputs.report(product, wanted, &text)?;
+    if let Some(document) = outputs.keep()? {
+        output::data(&document)?;
+        if !wanted.arguments.quiet {
+            output::remark(&text);
+        }
+    } else if wanted.arguments.json {
+        output::data(&product.json(wanted.arguments.geometry)?)?;
+    } else if !wanted.arguments.quiet || wanted.report().is_some_and(is_standard) {
+        output::text(&text)?;
+    }
+    Ok(())
+}
+
 impl Finish<'_> {
     /// Writes and prints; `text` makes the report of the lines on what was written.
     pub(crate) fn finish<P: Product>(
@@ -59,20 +83,7 @@ impl Finish<'_> {
         product: &mut P,
         text: impl FnOnce(&P, &[String]) -> String,
     ) -> anyhow::Result<Ending> {
-        let mut outputs = Outputs::prepare(product, self.wanted)?;
-        let text = text(product, &outputs.written);
-        let text = output::printable(&text);
-        outputs.report(product, self.wanted, &text)?;
-        if let Some(document) = outputs.keep()? {
-            output::data(&document)?;
-            if !self.wanted.arguments.quiet {
-                output::remark(&text);
-            }
-        } else if self.wanted.arguments.json {
-            output::data(&product.json(self.wanted.arguments.geometry)?)?;
-        } else if !self.wanted.arguments.quiet || self.wanted.report().is_some_and(is_standard) {
-            output::text(&text)?;
-        }
+        present(product, self.wanted, text)?;
         Ok(self.ending())
     }
 

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod basis;
+mod choose;
 mod complete;
 mod curve;
 mod diagnose;
@@ -18,6 +19,7 @@ mod progress;
 mod project;
 mod report_text;
 mod reproduce;
+mod routes;
 mod shape;
 mod signal;
 mod surface;
@@ -39,7 +41,7 @@ enum Ending {
 }
 
 fn main() -> ExitCode {
-    let arguments = Arguments::try_parse_from(diagnose::routed(std::env::args_os()))
+    let arguments = Arguments::try_parse_from(routes::routed(std::env::args_os()))
         .unwrap_or_else(|error| output::usage(&error));
     let result = match arguments.command {
         Command::Curve(arguments) => curve::run(&arguments),
@@ -47,6 +49,8 @@ fn main() -> ExitCode {
         Command::Surface(arguments) => surface::run(&arguments),
         Command::Diagnose(arguments) => diagnose::run(&arguments),
         Command::DiagnoseGrid(arguments) => diagnose::grid::run(&arguments),
+        Command::Choose(arguments) => choose::run(&arguments),
+        Command::ChooseGrid(arguments) => choose::run_grid(&arguments),
         Command::Triangle(arguments) => triangle::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),
         Command::Project(arguments) => project::run(&arguments),

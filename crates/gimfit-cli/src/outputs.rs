@@ -1,7 +1,7 @@
 //! Files of a fit, by their endings: all produced first, then named.
 
 use crate::arguments::WritingArguments;
-use crate::family::{self, Family};
+use crate::family::{self, Family, Keep};
 use crate::input;
 use crate::targets::{self, Kind, is_standard, kind, known_kind};
 use anyhow::{Context, ensure};
@@ -21,15 +21,20 @@ const PNG_SCALE: f32 = 2.0;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Wanted<'a> {
     pub(crate) arguments: &'a WritingArguments,
-    /// Iterations whose fits are kept, for files of each.
-    keep: &'a [usize],
+    /// Fits that are kept, for files of each.
+    keep: Keep<'a>,
     /// Whether samples were asked for.
     samples: bool,
 }
 
 impl<'a> Wanted<'a> {
     pub(crate) fn new(arguments: &'a WritingArguments, keep: &'a [usize], samples: bool) -> Self {
-        Self { arguments, keep, samples }
+        Self { arguments, keep: Keep::Iterations(keep), samples }
+    }
+
+    /// With files of every fit that is found.
+    pub(crate) fn of_all(arguments: &'a WritingArguments) -> Self {
+        Self { arguments, keep: Keep::Sizes, samples: false }
     }
 
     /// File of the report.
@@ -116,7 +121,8 @@ impl Outputs {
                 let paths: Vec<PathBuf> = families.iter().map(|f| f.file(iteration)).collect();
                 outputs.produce(member, &paths, clock)
             })?;
-            outputs.written = families.iter().map(|family| family.wrote(&members)).collect();
+            outputs.written =
+                families.iter().map(|family| family.wrote(wanted.keep, &members)).collect();
         }
         let single: Vec<PathBuf> = wanted
             .arguments

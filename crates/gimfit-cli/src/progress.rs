@@ -14,26 +14,59 @@ pub(crate) struct Progress {
     started: Instant,
     bar: Option<ProgressBar>,
     enabled: bool,
-    most: usize,
+    kind: Kind,
+}
+
+/// What is watched.
+#[derive(Debug, Clone, Copy)]
+enum Kind {
+    /// A run of at most so many iterations.
+    Run { most: usize },
+    /// A search for few control points of a dimension, whose end nobody knows.
+    Search { dimension: usize },
 }
 
 impl Progress {
     /// Shows nothing if `quiet`, or where no terminal is listening.
     pub(crate) fn new(quiet: bool, most: usize) -> Self {
+        Self::of(quiet, Kind::Run { most })
+    }
+
+    /// Of a search for few control points.
+    pub(crate) fn of_search(quiet: bool, dimension: usize) -> Self {
+        Self::of(quiet, Kind::Search { dimension: dimension.max(1) })
+    }
+
+    fn of(quiet: bool, kind: Kind) -> Self {
         let enabled = !quiet && std::io::stderr().is_terminal();
-        Self { started: Instant::now(), bar: None, enabled, most }
+        Self { started: Instant::now(), bar: None, enabled, kind }
     }
 
     fn show(&mut self, snapshot: &Snapshot<'_>) {
         if !self.enabled || self.started.elapsed() < PATIENCE {
             return;
         }
-        let (most, elapsed) = (self.most as u64, self.started.elapsed());
+        let elapsed = self.started.elapsed();
         let position = snapshot.entry.iteration as u64;
-        let message = format!("residual {:.2e}", snapshot.entry.max_residual);
+        let error = snapshot.entry.max_residual;
+        let (message, template, most) = match self.kind {
+            Kind::Run { most } => (
+                format!("residual {error:.2e}"),
+                "{elapsed} [{bar:20}] {pos}/{len} {wide_msg}",
+                most as u64,
+            ),
+            Kind::Search { dimension } => (
+                format!(
+                    "{} control points, largest distance {error:.2e}",
+                    snapshot.control.len() / dimension
+                ),
+                "{elapsed} {spinner} round {pos}: {wide_msg}",
+                u64::MAX,
+            ),
+        };
         // All is set before the bar is drawn first; what is too wide for the line is cut.
         let bar = self.bar.get_or_insert_with(|| {
-            let style = ProgressStyle::with_template("{elapsed} [{bar:20}] {pos}/{len} {wide_msg}");
+            let style = ProgressStyle::with_template(template);
             let bar = ProgressBar::new(most)
                 .with_elapsed(elapsed)
                 .with_position(position)

@@ -73,6 +73,7 @@ pub use fit::{
     fit_triangular_patch,
 };
 pub use fit::{SurfaceDiagnosis, diagnose_blending_surface, diagnose_surface};
+pub use fit::{curve_choices, surface_choices, usual_distances};
 pub use geometry::{BlendingCurve, BlendingSurface, Curve, Surface, TriangularPatch};
 pub use iteration::{HistoryEntry, Termination};
 pub use knots::{KnotPlacement, KnotVector};

@@ -117,7 +117,7 @@ impl FromStr for NoiseChoice {
 
 /// [`Corners`] as typed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct CornersChoice(Corners);
+pub(crate) struct CornersChoice(pub(crate) Corners);
 
 impl FromStr for CornersChoice {
     type Err = String;

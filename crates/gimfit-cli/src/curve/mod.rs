@@ -9,7 +9,7 @@ mod plan;
 mod print;
 mod save;
 
-pub(crate) use approximation::ApproximationArguments;
+pub(crate) use approximation::{ApproximationArguments, CornersChoice};
 pub(crate) use least_squares::LeastSquaresArguments;
 
 use crate::Ending;
@@ -56,7 +56,7 @@ fn blended(
 }
 
 /// A fit with everything that is told about it.
-struct Job<'a> {
+pub(crate) struct Job<'a> {
     table: &'a PointTable,
     fit: &'a CurveFit,
     /// What was blended, in words, if no B-splines were.
@@ -70,7 +70,7 @@ struct Job<'a> {
 }
 
 impl<'a> Job<'a> {
-    fn new(
+    pub(crate) fn new(
         table: &'a PointTable,
         fit: &'a CurveFit,
         basis: Option<String>,
@@ -102,7 +102,11 @@ pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
 
     let view = PointsView::new(table.dimension(), &table.coordinates)
         .map_err(|error| explain(error, &table))?;
-    let mut progress = Progress::new(arguments.writing.quiet, options.iterations);
+    let quiet = arguments.writing.quiet;
+    let mut progress = match &recipe {
+        Recipe::Approximate(_) => Progress::of_search(quiet, table.dimension()),
+        _ => Progress::new(quiet, options.iterations),
+    };
     let clock = Instant::now();
     let result = match &recipe {
         Recipe::Interpolate => {

@@ -4,7 +4,6 @@ use crate::arguments::{InputArguments, ShapeArguments};
 use crate::surface::GridArguments;
 use crate::values;
 use clap::Args;
-use std::ffi::OsString;
 
 #[derive(Debug, Args)]
 #[command(after_help = "Exit status: 0 done; 2 wrong usage or input; 130 interrupted.
@@ -65,21 +64,4 @@ pub(crate) struct TargetArguments {
         help_heading = "Diagnosis"
     )]
     pub(crate) tolerance: Option<f64>,
-}
-
-/// The command that `gimfit diagnose --grid` is: grids have options of their own.
-pub(crate) const GRID_DIAGNOSIS: &str = "diagnose-grid";
-
-/// The arguments with `diagnose` and `--grid` taken for one command.
-pub(crate) fn routed(arguments: impl Iterator<Item = OsString>) -> Vec<OsString> {
-    let mut all: Vec<OsString> = arguments.collect();
-    if all.get(1).is_none_or(|command| command != "diagnose") {
-        return all;
-    }
-    let options = all.iter().position(|one| one == "--").unwrap_or(all.len());
-    if let Some(grid) = all[..options].iter().skip(2).position(|one| one == "--grid") {
-        all.remove(2 + grid);
-        all[1] = GRID_DIAGNOSIS.into();
-    }
-    all
 }

@@ -6,7 +6,7 @@ pub(crate) mod grid;
 mod json;
 mod print;
 
-pub(crate) use arguments::{DiagnoseArguments, DiagnoseGridArguments, GRID_DIAGNOSIS, routed};
+pub(crate) use arguments::{DiagnoseArguments, DiagnoseGridArguments};
 
 use crate::basis::described;
 use crate::curve::{Shape, explain_fit, shape};

@@ -52,7 +52,7 @@ fn blended(
 }
 
 /// A fit with everything that is told about it.
-struct Job<'a> {
+pub(crate) struct Job<'a> {
     grid: &'a PointGrid,
     fit: &'a SurfaceFit,
     /// What was blended in u and v, in words, if no B-splines were.
@@ -66,7 +66,7 @@ struct Job<'a> {
 }
 
 impl<'a> Job<'a> {
-    fn new(
+    pub(crate) fn new(
         grid: &'a PointGrid,
         fit: &'a SurfaceFit,
         bases: Option<[String; 2]>,
@@ -108,7 +108,11 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
     let view = GridView::new([grid.rows, grid.columns], grid.dimension(), &grid.coordinates)
         .map_err(|error| explain(error, &grid))?;
     let approximation = arguments.approximation.options(options.degrees, options.closed);
-    let mut progress = Progress::new(arguments.writing.quiet, options.iterations);
+    let quiet = arguments.writing.quiet;
+    let mut progress = match &approximation {
+        Some(_) => Progress::of_search(quiet, grid.dimension()),
+        None => Progress::new(quiet, options.iterations),
+    };
     let clock = Instant::now();
     let result = match (&bases, &approximation) {
         (_, Some(options)) => {

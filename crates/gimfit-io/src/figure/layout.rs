@@ -76,8 +76,11 @@ pub(super) fn curve_figure(figure: &CurveFigure<'_>) -> String {
     };
     legend::draw(&mut svg, layout.main, &rows(looks));
     panel_error::draw(&mut svg, layout.error, figure, &mut notes);
-    let histories =
-        panel_history::Histories { residuals: figure.history, normal: figure.normal_history };
+    let histories = panel_history::Histories {
+        residuals: figure.history,
+        normal: figure.normal_history,
+        names: panel_history::CONVERGENCE,
+    };
     panel_history::draw(&mut svg, layout.history, histories, figure.extent, &mut notes);
     let body = svg.finish();
     whole(figure.title, &layout, &caption, &notes, &body)

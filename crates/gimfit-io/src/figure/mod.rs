@@ -37,6 +37,7 @@
 //! # Ok::<(), gimfit_io::figure::FigureError>(())
 //! ```
 
+mod choices;
 pub(crate) mod decimate;
 pub(crate) mod extent;
 pub(crate) mod layers;
@@ -64,6 +65,7 @@ pub(crate) mod view;
 #[cfg(test)]
 mod tests;
 
+pub use choices::{ChoicesFigure, choices_figure_svg};
 pub use png::{FigureError, svg_to_png};
 
 use plot::Rect;

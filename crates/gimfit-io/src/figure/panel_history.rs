@@ -1,4 +1,4 @@
-//! The panel of the convergence history.
+//! The panel of errors along a sequence: the convergence history, or fits to choose from.
 
 use super::decimate::{Px, thin_polyline};
 use super::layers;
@@ -21,17 +21,22 @@ const MOST_POINTS: usize = 1500;
 pub(crate) struct Histories<'a> {
     pub(crate) residuals: &'a [(usize, f64, f64)],
     pub(crate) normal: &'a [(usize, f64)],
+    /// What the panel shows, the members of the sequence, and what is measured.
+    pub(crate) names: [&'a str; 3],
 }
+
+/// The names of a convergence history.
+pub(crate) const CONVERGENCE: [&str; 3] = ["Convergence", "iteration", "residual"];
 
 /// Draws the panel into `area`.
 pub(crate) fn draw(
     svg: &mut Svg,
     area: Rect,
-    Histories { residuals: history, normal }: Histories<'_>,
+    Histories { residuals: history, normal, names }: Histories<'_>,
     extent: f64,
     notes: &mut Notes,
 ) {
-    plot::heading(svg, area, "Convergence");
+    plot::heading(svg, area, names[0]);
     let Some(iterations) = Interval::around(history.iter().map(|h| h.0 as f64)) else {
         message(svg, area, "no history");
         return;
@@ -41,16 +46,16 @@ pub(crate) fn draw(
     } else {
         Scale::new(iterations, area.x + 8.0, area.right() - 8.0)
     };
-    let across = Axis::whole(&sx, Direction::Across, "iteration");
+    let across = Axis::whole(&sx, Direction::Across, names[1]);
     let normal_values = normal.iter().map(|h| h.1);
     let values = history.iter().flat_map(|h| [h.1, h.2]).chain(normal_values);
     let Some(log) = LogScale::around(values, area.bottom() - 5.0, area.y + 5.0) else {
         plot::draw_axes(svg, area, &across, &Axis::default());
-        message(svg, area, "all residuals are 0");
+        message(svg, area, &format!("all {}s are 0", names[2]));
         return;
     };
     let log = log.reaching(level::value(extent), 2);
-    let axis = Axis::logarithmic(&log, "residual");
+    let axis = Axis::logarithmic(&log, names[2]);
     plot::draw_axes(svg, area, &across, &axis);
     if level::draw(svg, area, extent, &log) {
         level::label(svg, area, extent, &log);

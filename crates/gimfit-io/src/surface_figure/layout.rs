@@ -29,7 +29,11 @@ pub(super) fn surface_figure(figure: &SurfaceFigure<'_>) -> String {
     let entries = panel_surface::draw(&mut svg, layout.main, figure, &main, &mut notes);
     legend::draw(&mut svg, layout.main, &rows(entries));
     panel_map::draw(&mut svg, layout.error, figure, &mut notes);
-    let histories = panel_history::Histories { residuals: figure.history, normal: &[] };
+    let histories = panel_history::Histories {
+        residuals: figure.history,
+        normal: &[],
+        names: panel_history::CONVERGENCE,
+    };
     panel_history::draw(&mut svg, layout.history, histories, figure.extent, &mut notes);
     if let Some(step) = figure.stages {
         notes.add(format!(

@@ -4,6 +4,7 @@ mod approximate;
 mod approximate_surface;
 mod blending;
 mod blending_surface;
+mod choices;
 mod convex;
 mod curve;
 mod diagnose;
@@ -36,6 +37,7 @@ pub use blending::{BlendingCurveFit, fit_blending_curve, fit_blending_curve_obse
 pub use blending_surface::{
     BlendingSurfaceFit, fit_blending_surface, fit_blending_surface_observed,
 };
+pub use choices::{curve_choices, surface_choices, usual_distances};
 pub use curve::{CurveFit, fit_curve, fit_curve_observed, interpolate};
 pub use diagnose::{CurveDiagnosis, diagnose_blending_curve, diagnose_curve};
 pub use diagnose_surface::{SurfaceDiagnosis, diagnose_blending_surface, diagnose_surface};
