@@ -96,6 +96,11 @@ pub(crate) struct InputArguments {
     /// Which piece of a file in several pieces, by number from 1, or all of them one after another
     #[arg(long, value_name = "N|all", help_heading = "Reading")]
     pub(crate) part: Option<PartChoice>,
+
+    /// Leave out rows without a value in a column that is read (an empty cell, NaN, NA, N/A, null),
+    /// rather than refuse the file
+    #[arg(long, help_heading = "Reading")]
+    pub(crate) skip_missing: bool,
 }
 
 #[derive(Debug, Args)]

@@ -20,7 +20,28 @@ pub(crate) fn options(arguments: &InputArguments) -> ReadOptions {
         delimiter: arguments.delimiter,
         decimal: arguments.decimal,
         part: arguments.part,
+        skip_missing: arguments.skip_missing,
     }
+}
+
+/// Reads a list of numbers given for an option, one for each row of the file of points: rows that were
+/// sorted, or left out, take theirs along.
+pub(crate) fn numbers_of_rows(
+    path: &Path,
+    option: &str,
+    table: &PointTable,
+) -> anyhow::Result<Vec<f64>> {
+    let given = numbers(path, option, &[])?;
+    let all = table.rows() + table.rows_left_out;
+    ensure!(
+        table.rows_left_out == 0 || given.len() == all,
+        "{option} {}: there are {} numbers, but {} has {all} rows; give one for each, those left out \
+         included",
+        path.display(),
+        given.len(),
+        table.source
+    );
+    Ok(table.for_rows(given))
 }
 
 /// Reads a list of numbers given for an option, which takes one of `words` as well.

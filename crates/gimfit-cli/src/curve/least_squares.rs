@@ -83,7 +83,7 @@ pub(super) fn options(
         "--seed belongs to --method random-columns and random-rows"
     );
     let data_weights = match &own.data_weights {
-        Some(path) => Some(in_order(input::numbers(path, "--data-weights", &[])?, shape)),
+        Some(path) => Some(input::numbers_of_rows(path, "--data-weights", &shape.table)?),
         None => None,
     };
     let iteration = &arguments.iteration;
@@ -114,14 +114,6 @@ fn start(path: &Path) -> anyhow::Result<Points> {
     let length = curve.free_control_points() * curve.dimension();
     let control = curve.control_points().coordinates();
     Ok(Points::new(curve.dimension(), control[..length].to_vec())?)
-}
-
-/// Points that were sorted take their weights along.
-fn in_order(weights: Vec<f64>, shape: &Shape) -> Vec<f64> {
-    match &shape.table.row_positions {
-        Some(order) if weights.len() == order.len() => order.iter().map(|&j| weights[j]).collect(),
-        _ => weights,
-    }
 }
 
 /// Knots from a file, or how many control points.

@@ -157,12 +157,7 @@ fn rational_weights(
     table: &PointTable,
 ) -> anyhow::Result<Option<Vec<f64>>> {
     let Some(path) = &shape.rational_weights else { return Ok(None) };
-    let weights = input::numbers(path, "--rational-weights", &[])?;
-    Ok(Some(match &table.row_positions {
-        // Points that were sorted take their weights along.
-        Some(order) if weights.len() == order.len() => order.iter().map(|&j| weights[j]).collect(),
-        _ => weights,
-    }))
+    Ok(Some(input::numbers_of_rows(path, "--rational-weights", table)?))
 }
 
 /// The basis that is no B-spline, with the options that would contradict it refused.

@@ -251,6 +251,7 @@ fn table(
         coordinates,
         row_lines: Some(pairs.iter().map(|pair| pair.line).collect()),
         row_positions: None,
+        rows_left_out: 0,
         notes,
         abscissa,
         abscissa_name: selection.abscissa_name(&names),

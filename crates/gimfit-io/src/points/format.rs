@@ -23,22 +23,30 @@ pub(super) fn read(
         Some(format) => format,
         None => find(bytes, &extension, &mut notes),
     };
-    match format {
+    let mut table = match format {
         FormatChoice::Npy => {
             refuse_part(source, options)?;
             note_text_options(options, &mut notes);
-            npy::read(bytes, source, options, notes)
+            npy::read(bytes, source, options, notes)?
         }
         FormatChoice::Gpx => {
             let text = decode::text(bytes, source, false, &mut notes)?;
             note_text_options(options, &mut notes);
-            gpx::read(&text, source, options, notes)
+            gpx::read(&text, source, options, notes)?
         }
         _ => {
             refuse_part(source, options)?;
-            read_text(bytes, source, &extension, options, notes)
+            read_text(bytes, source, &extension, options, notes)?
+        }
+    };
+    if options.skip_missing {
+        table.leave_out_missing();
+        if table.rows() == 0 {
+            let problem = Problem::NoRows("every row lacks a value".to_owned());
+            return Err(ReadError::file(source, problem));
         }
     }
+    Ok(table)
 }
 
 fn read_text(

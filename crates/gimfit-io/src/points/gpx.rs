@@ -327,6 +327,7 @@ fn table(
         coordinates,
         row_lines: Some(points.iter().map(|point| point.line).collect()),
         row_positions: None,
+        rows_left_out: 0,
         notes,
         abscissa,
         abscissa_name: selection.abscissa_name(&names),

@@ -57,7 +57,7 @@ pub(super) fn read(
     let (coordinates, abscissa) = selection.gather(array.rows, |row, column| {
         let (value, exact) = array.value(row, column);
         inexact += usize::from(!exact);
-        if value.is_finite() {
+        if value.is_finite() || (options.skip_missing && value.is_nan()) {
             return Ok(value);
         }
         let cell = value.to_string();
@@ -77,6 +77,7 @@ pub(super) fn read(
         coordinates,
         row_lines: None,
         row_positions: None,
+        rows_left_out: 0,
         notes,
         abscissa,
         abscissa_name: selection.abscissa_name(&names),

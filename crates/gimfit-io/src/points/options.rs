@@ -20,6 +20,9 @@ pub struct ReadOptions {
     pub decimal: Option<DecimalMark>,
     /// Which piece to read of a file with several (segments of a GPX track).
     pub part: Option<PartChoice>,
+    /// Whether rows without a value in a chosen column are left out, with a
+    /// note, rather than refused: empty cells, NaN, NA, N/A and null.
+    pub skip_missing: bool,
 }
 
 /// A name given for an option that stands for none of its values.

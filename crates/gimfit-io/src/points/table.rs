@@ -23,6 +23,8 @@ pub struct PointTable {
     /// The position of each row in the file, from 0; `None` while the rows are
     /// in the order of the file.
     pub row_positions: Option<Vec<usize>>,
+    /// Rows of the file that are not here because they lack a value.
+    pub rows_left_out: usize,
     /// Every choice made while reading, one sentence each.
     pub notes: Vec<String>,
     /// The column asked for as abscissa, one finite number per row.
@@ -57,6 +59,66 @@ impl PointTable {
         }
     }
 
+    /// Numbers given for the rows of the file, for the rows as they are now:
+    /// sorted, or without some. Unless there is one for each row of the file, they
+    /// are given back as they are.
+    pub fn for_rows(&self, numbers: Vec<f64>) -> Vec<f64> {
+        match &self.row_positions {
+            Some(positions) if numbers.len() == self.rows() + self.rows_left_out => {
+                positions.iter().map(|&row| numbers[row]).collect()
+            }
+            _ => numbers,
+        }
+    }
+
+    /// Leaves out rows with a NaN, which stands for a value that is missing,
+    /// and notes which.
+    pub(super) fn leave_out_missing(&mut self) {
+        const NAMED: usize = 5;
+        let dimension = self.dimension();
+        let is_there = |row: &usize| {
+            let abscissa = self.abscissa.as_ref().map_or(0.0, |abscissa| abscissa[*row]);
+            let point = &self.coordinates[row * dimension..][..dimension];
+            !abscissa.is_nan() && !point.iter().any(|x| x.is_nan())
+        };
+        let (kept, missing): (Vec<usize>, Vec<usize>) = (0..self.rows()).partition(is_there);
+        if missing.is_empty() {
+            return;
+        }
+        let mut names: Vec<String> =
+            missing.iter().take(NAMED).map(|&row| self.row_name(row)).collect();
+        if missing.len() > NAMED {
+            names.push(format!("and {} more", missing.len() - NAMED));
+        }
+        self.notes.push(format!(
+            "{} without a value left out: {}.",
+            super::error::counted(missing.len(), "row"),
+            names.join(", ")
+        ));
+        self.rows_left_out = missing.len();
+        self.keep(kept);
+    }
+
+    /// Takes these rows, in this order.
+    fn keep(&mut self, rows: Vec<usize>) {
+        let dimension = self.dimension();
+        self.coordinates = rows
+            .iter()
+            .flat_map(|&row| &self.coordinates[row * dimension..][..dimension])
+            .copied()
+            .collect();
+        if let Some(abscissa) = &mut self.abscissa {
+            *abscissa = rows.iter().map(|&row| abscissa[row]).collect();
+        }
+        if let Some(lines) = &mut self.row_lines {
+            *lines = rows.iter().map(|&row| lines[row]).collect();
+        }
+        self.row_positions = Some(match self.row_positions.take() {
+            None => rows,
+            Some(before) => rows.iter().map(|&row| before[row]).collect(),
+        });
+    }
+
     /// Sorts the rows by their abscissa, if there is one, and notes how many
     /// moved; rows of equal abscissa keep their order.
     pub fn sort_by_abscissa(&mut self) {
@@ -64,19 +126,8 @@ impl PointTable {
         let mut order: Vec<usize> = (0..abscissa.len()).collect();
         order.sort_by(|&a, &b| abscissa[a].total_cmp(&abscissa[b]));
         let moved = order.iter().enumerate().filter(|(new, old)| new != *old).count();
-        let dimension = self.dimension();
-        let coordinates = order
-            .iter()
-            .flat_map(|&row| &self.coordinates[row * dimension..][..dimension])
-            .copied()
-            .collect();
-        self.coordinates = coordinates;
-        self.abscissa = Some(order.iter().map(|&row| abscissa[row]).collect());
-        if let Some(lines) = &mut self.row_lines {
-            *lines = order.iter().map(|&row| lines[row]).collect();
-        }
         self.notes.push(format!("rows sorted by abscissa; {moved} of {} moved", order.len()));
-        self.row_positions = Some(order);
+        self.keep(order);
     }
 }
 

@@ -41,6 +41,7 @@ fn every_way(bytes: &[u8]) {
         delimiter: Some(Delimiter::Semicolon),
         decimal: Some(DecimalMark::Comma),
         part: Some(PartChoice::All),
+        skip_missing: true,
     };
     for format in [FormatChoice::Text, FormatChoice::Airfoil, FormatChoice::Gpx] {
         let options = ReadOptions { format: Some(format), ..busy.clone() };

@@ -272,3 +272,32 @@ proptest! {
         prop_assert_eq!(got, expected);
     }
 }
+
+#[test]
+fn rows_without_a_value_are_left_out_where_that_is_asked_for() {
+    let text = "t,x,y,label\n0,1,2,a\n1,,3,b\n2,4,NaN,\n3,N/A,1,c\n4,5,6,\n";
+    let skip = ReadOptions {
+        abscissa: Some("t".parse().unwrap()),
+        columns: Some(vec!["x".parse().unwrap(), "y".parse().unwrap()]),
+        skip_missing: true,
+        ..ReadOptions::default()
+    };
+    let read = |text: &str, options: &ReadOptions| {
+        read_points_from(text.as_bytes(), "f.csv", Some("csv"), options)
+    };
+    let table = read(text, &skip).unwrap();
+    assert_eq!(table.coordinates, [1.0, 2.0, 5.0, 6.0]);
+    assert_eq!(table.abscissa, Some(vec![0.0, 4.0]));
+    assert_eq!((table.row_name(0), table.row_name(1)), ("line 2".into(), "line 6".into()));
+    let note = "3 rows without a value left out: line 3, line 4, line 5.";
+    assert!(table.notes.iter().any(|found| found == note), "{:?}", table.notes);
+    assert_eq!(table.for_rows(vec![9.0, 8.0, 7.0, 6.0, 5.0]), vec![9.0, 5.0]);
+    assert_eq!(table.for_rows(vec![9.0, 8.0]), [9.0, 8.0]);
+    // What is wrong rather than missing is refused still, and so is a file of nothing.
+    assert!(
+        read("x,y\n1,oops\n", &ReadOptions { skip_missing: true, ..Default::default() }).is_err()
+    );
+    let none = read("x,y\n1,\n,2\n", &ReadOptions { skip_missing: true, ..Default::default() });
+    assert!(none.unwrap_err().to_string().contains("every row lacks a value"));
+    assert!(read(text, &ReadOptions { skip_missing: false, ..skip }).is_err());
+}

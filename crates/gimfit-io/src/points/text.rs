@@ -41,6 +41,7 @@ pub(crate) fn read(
         layout: &layout,
         selection: &selection,
         source,
+        skip_missing: options.skip_missing,
         may_switch: options.decimal.is_none()
             && (separator != Delimiter::Comma || rows.may_be_quoted),
     };
@@ -75,6 +76,7 @@ pub(crate) fn read(
         coordinates: columns.coordinates,
         row_lines: Some(columns.lines),
         row_positions: None,
+        rows_left_out: 0,
         notes,
         abscissa: columns.abscissa,
         abscissa_name: selection.abscissa_name(&layout.names),
@@ -114,6 +116,8 @@ struct Reader<'a> {
     layout: &'a Layout,
     selection: &'a Selection,
     source: &'a str,
+    /// Whether a cell without a value is NaN, for its row to be left out.
+    skip_missing: bool,
     /// Whether a comma in a cell may turn out to be the decimal mark.
     may_switch: bool,
 }
@@ -185,7 +189,11 @@ impl Reader<'_> {
         for cell in cells {
             let slot = slots.get(count).copied().unwrap_or_default();
             if slot.coordinate.is_some() || slot.abscissa {
-                match parse(cell, mark) {
+                let value = match parse(cell, mark) {
+                    Err(_) if self.skip_missing && is_missing(cell) => Ok(f64::NAN),
+                    value => value,
+                };
+                match value {
                     Ok(value) => {
                         if value == 0.0 && vanished(cell) {
                             out.vanished += 1;
@@ -285,6 +293,12 @@ impl Reader<'_> {
         let list = list(&full).replace(", ", ",");
         format!("choose the columns of numbers with --columns {list}")
     }
+}
+
+/// Whether a cell says that there is no value.
+fn is_missing(cell: &str) -> bool {
+    const WORDS: [&str; 5] = ["", "nan", "na", "n/a", "null"];
+    WORDS.iter().any(|word| cell.eq_ignore_ascii_case(word))
 }
 
 /// Notes what stood between the rows, and how many numbers were read as 0.
