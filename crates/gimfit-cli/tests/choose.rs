@@ -108,7 +108,7 @@ fn what_cannot_be_is_refused_or_said() {
     };
     error("choose spiral.csv --distances 0.1,-1", "-1 is not a distance above 0");
     error("choose spiral.csv --distances inf", "");
-    error("choose spiral.csv --abscissa 1", "--abscissa does not go with gimfit choose");
+    error("choose spiral.csv --abscissa 1", "does not exceed");
     error("choose spiral.csv --json --geometry", "--geometry belongs to");
     error("choose spiral.csv -o nowhere/a.json", "cannot write");
     error("choose --grid spiral.csv --knots uniform", "--knots does not go with");

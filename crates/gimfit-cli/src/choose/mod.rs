@@ -29,10 +29,6 @@ pub(crate) fn run(arguments: &ChooseArguments) -> anyhow::Result<Ending> {
     let wanted = Wanted::of_all(&arguments.writing);
     let read: [(&str, &Path); 1] = [("POINTS", &arguments.input.points)];
     check(wanted, &read, &arguments.ladder, &arguments.writing)?;
-    ensure!(
-        arguments.input.abscissa.is_none(),
-        "--abscissa does not go with gimfit choose: distances are those of points from a curve"
-    );
     let clock = Instant::now();
     let table = input::points(&arguments.input)?;
     let read = clock.elapsed().as_secs_f64();
@@ -41,6 +37,7 @@ pub(crate) fn run(arguments: &ChooseArguments) -> anyhow::Result<Ending> {
     let options = ApproximationOptions {
         degree: arguments.degree,
         closed: arguments.closed,
+        abscissae: table.abscissa.clone(),
         corners: arguments.corners.map_or(Corners::Auto, |choice| choice.0),
         ..ApproximationOptions::within(1.0)
     };

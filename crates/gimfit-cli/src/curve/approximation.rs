@@ -8,7 +8,7 @@ use gimfit::{ApproximationOptions, Corners, CurveOptions, Goal, Robust};
 use std::str::FromStr;
 
 /// What interpolation alone has.
-const OF_INTERPOLATION: [&str; 19] = [
+const OF_INTERPOLATION: [&str; 17] = [
     "only",
     "memory",
     "foot_points",
@@ -20,8 +20,6 @@ const OF_INTERPOLATION: [&str; 19] = [
     "knots",
     "period",
     "duplicates",
-    "abscissa",
-    "sort",
     "method",
     "weight",
     "bandwidth",
@@ -151,7 +149,6 @@ impl ApproximationArguments {
             ("--knots", shape.knots.is_some()),
             ("--period", shape.period.is_some()),
             ("--duplicates", shape.duplicates != DuplicatesChoice::Error),
-            ("--abscissa", arguments.input.abscissa.is_some()),
             ("--method", iteration.method != MethodChoice::Auto),
             ("--weight", iteration.weight != "auto"),
             ("--bandwidth", iteration.bandwidth.is_some()),
@@ -178,6 +175,7 @@ impl ApproximationArguments {
         &self,
         degree: usize,
         closed: bool,
+        abscissae: Option<Vec<f64>>,
     ) -> anyhow::Result<Option<ApproximationOptions>> {
         let goal = match (self.tolerance, self.rms, self.noise, self.control_points) {
             (Some(tolerance), ..) => Goal::Tolerance(tolerance),
@@ -194,6 +192,7 @@ impl ApproximationArguments {
         Ok(Some(ApproximationOptions {
             degree,
             closed,
+            abscissae,
             corners,
             robust: self.robust.map(|choice| match choice {
                 RobustChoice::Huber => Robust::Huber,

@@ -71,7 +71,12 @@ impl Plan {
             only_b_splines(what, basis.is_some(), "other bases move all points in every step")?;
         }
         let approximation = &arguments.approximation;
-        let recipe = match (approximation.options(options.degree, options.closed)?, basis) {
+        let abscissae = match (&arguments.input.abscissa, &options.parameterization) {
+            (Some(_), Some(Parameterization::Given(values))) => Some(values.clone()),
+            _ => None,
+        };
+        let approximate = approximation.options(options.degree, options.closed, abscissae)?;
+        let recipe = match (approximate, basis) {
             (Some(options), _) => Recipe::Approximate(options),
             (None, Some(basis)) => Recipe::Blend(basis),
             (None, None) => Recipe::Interpolate,

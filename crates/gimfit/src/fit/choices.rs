@@ -45,7 +45,7 @@ pub fn curve_choices<'a>(
 ) -> Result<Vec<CurveFit>, Error> {
     let points = points.into();
     choices(distances, points.len(), |distance| {
-        let options = ApproximationOptions { goal: Goal::Tolerance(distance), ..*options };
+        let options = ApproximationOptions { goal: Goal::Tolerance(distance), ..options.clone() };
         approximate_curve_observed(points, &options, observer)
     })
 }

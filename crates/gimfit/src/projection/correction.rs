@@ -196,6 +196,14 @@ impl<'a> MovingCurve<'a> {
         }
     }
 
+    /// Distances of all points from the curve at parameters that stay.
+    pub(crate) fn distances_at(&mut self, data: &[f64], parameters: &[f64], distances: &mut [f64]) {
+        let points = data.chunks_exact(self.dimension).zip(parameters);
+        for ((point, &t), distance) in points.zip(distances) {
+            *distance = self.foot(point, t, (t, t)).1;
+        }
+    }
+
     /// Corrects all parameters; `distances` receives what is left. On an open curve the first and
     /// the last parameter stay. Parameters of a closed curve span less than a period, which may lie
     /// anywhere.

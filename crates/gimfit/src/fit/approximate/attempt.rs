@@ -201,7 +201,8 @@ impl Attempt {
             for (k, &g) in active.iter().enumerate() {
                 here.fill(0.0);
                 guard_rows.add_point(k, &self.control, &mut here);
-                problem.polyline().nearest(self.guards[g].leg, 1, &here, &mut target);
+                let Guard { leg, share } = self.guards[g];
+                problem.polyline().strayed(leg, share, 1, &here, &mut target);
                 guard_rows.add_to(k, self.guard_weights[g], &target, &mut equations);
             }
         } else {
@@ -222,7 +223,11 @@ impl Attempt {
     fn measure(&mut self, problem: &Problem<'_>, knots: &KnotVector) {
         let control = std::mem::take(&mut self.control);
         let mut curve = MovingCurve::new(knots, &control, problem.dimension);
-        curve.correct_all(problem.data, problem.reach, &mut self.parameters, &mut self.ratios);
+        if problem.over.is_some() {
+            curve.distances_at(problem.data, &self.parameters, &mut self.ratios);
+        } else {
+            curve.correct_all(problem.data, problem.reach, &mut self.parameters, &mut self.ratios);
+        }
         self.ratios.iter_mut().for_each(|ratio| *ratio /= problem.tolerance);
         if let Some(robust) = problem.robust {
             self.distrust(problem, robust);
@@ -286,12 +291,14 @@ impl Attempt {
     ) -> f64 {
         curve.point(self.guard_parameter(guard), point);
         let polyline = problem.polyline();
-        let ratio = polyline.distance_to_leg(guard.leg, point) / problem.allowance;
-        // Where all is well nobody asks whether a neighbouring leg is nearer still.
-        if ratio <= ALERT {
-            return ratio;
+        if polyline.over.is_none() {
+            let ratio = polyline.distance_to_leg(guard.leg, point) / problem.allowance;
+            // Where all is well nobody asks whether a neighbouring leg is nearer still.
+            if ratio <= ALERT {
+                return ratio;
+            }
         }
-        polyline.nearest(guard.leg, 1, point, nearest) / problem.allowance
+        polyline.strayed(guard.leg, guard.share, 1, point, nearest) / problem.allowance
     }
 
     /// Looks closely at all legs on which the curve could stray, and sets guards where it does.
@@ -306,7 +313,7 @@ impl Attempt {
             let from = self.parameters[leg];
             let to = self.guard_parameter(Guard { leg, share: 1.0 });
             let places = looks(from, to, &self.breaks, problem.closed);
-            let short = polyline.leg_length(leg) <= 0.5 * problem.allowance;
+            let short = problem.leg_length(leg) <= 0.5 * problem.allowance;
             if short && places.len() < 9 {
                 // A polynomial between points this close.
                 continue;

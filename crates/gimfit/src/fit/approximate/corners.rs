@@ -152,7 +152,7 @@ mod tests {
     use super::*;
 
     fn corners(data: &[[f64; 2]], closed: bool, tolerance: f64) -> Vec<usize> {
-        let polyline = Polyline { data: data.as_flattened(), dimension: 2, closed };
+        let polyline = Polyline { data: data.as_flattened(), dimension: 2, closed, over: None };
         find_corners(&polyline, tolerance, AUTO_ANGLE)
     }
 

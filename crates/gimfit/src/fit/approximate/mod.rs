@@ -1,6 +1,7 @@
 //! Curves within a distance of the data, with few control points: least squares in which breakpoints
 //! and parameters are sought as well.
 
+mod abscissa;
 mod attempt;
 pub(super) mod breaks;
 mod corners;
@@ -26,6 +27,7 @@ use crate::iteration::{Flow, HistoryEntry, NoObserver, Observer, Snapshot, Termi
 use crate::knots::check_degree;
 use crate::points::{Extent, Points, PointsView};
 use crate::report::{CurveReport, RunReport};
+use abscissa::Abscissa;
 use attempt::{Attempt, Effort};
 use corners::{AUTO_ANGLE, find_corners};
 use goal::check_goal;
@@ -102,9 +104,11 @@ pub fn approximate_curve_observed<'a>(
     let mut data = size.scale.apply(points.coordinates()).into_owned();
     let centre = centre_at_origin(&mut data, dimension);
     let diagonal = size.scale.up(size.extent.diagonal());
-    if diagonal == 0.0 && given > 1 {
+    if diagonal == 0.0 && given > 1 && options.abscissae.is_none() {
         return Err(Error::AllPointsEqual { points: given });
     }
+    // A constant has no extent.
+    let diagonal = if diagonal > 0.0 { diagonal } else { 1.0 };
     let mut closed = options.closed;
     if closed && given > 1 {
         let last = &data[(given - 1) * dimension..];
@@ -121,7 +125,10 @@ pub fn approximate_curve_observed<'a>(
         return Err(Error::TooFewPoints { points: count, degree: options.degree, needed });
     }
 
-    let goal = check_goal(options, &size, &Polyline { data: &data, dimension, closed })?;
+    let over = abscissa::of(options, given, count, dimension, closed, &mut choices)?;
+    let mut unit = over.as_ref().map(Abscissa::unit);
+    let polyline = Polyline { data: &data, dimension, closed, over: unit.as_deref() };
+    let goal = check_goal(options, &size, &polyline)?;
     if let Some((deviation, true)) = goal.noise {
         let deviation = size.scale.undo(deviation);
         choices.push(format!("noise: standard deviation {deviation:.3e} a coordinate, estimated"));
@@ -147,8 +154,7 @@ pub fn approximate_curve_observed<'a>(
     });
     let mut outliers = Vec::new();
     if options.robust.is_some() {
-        let mut problem =
-            Problem::new(&data, dimension, options.degree, closed, goal.measure, tolerance);
+        let mut problem = Problem::new(polyline, options.degree, goal.measure, tolerance);
         problem.robust = options.robust;
         let mut effort =
             Effort { rounds, most: most_rounds, watch: &mut watch, stopped: cancelled };
@@ -165,10 +171,14 @@ pub fn approximate_curve_observed<'a>(
         return Err(Error::TooFewPoints { points: count, degree: options.degree, needed });
     }
 
-    let polyline = Polyline { data: &data, dimension, closed };
+    if let Some(unit) = &mut unit {
+        *unit = kept.iter().map(|&j| unit[j]).collect();
+    }
+    let polyline = Polyline { data: &data, dimension, closed, over: unit.as_deref() };
     let scale_of_corners = goal.detail.unwrap_or(1e-3 * diagonal);
     let mut corners = match options.corners {
         Corners::None => Vec::new(),
+        _ if over.is_some() => Vec::new(),
         Corners::Auto => find_corners(&polyline, scale_of_corners, AUTO_ANGLE),
         Corners::Angle(least) => find_corners(&polyline, scale_of_corners, least),
     };
@@ -190,9 +200,9 @@ pub fn approximate_curve_observed<'a>(
     let mut found: Vec<(Piece, Attempt)> = Vec::new();
     let most_rounds = rounds + most_rounds;
     let mut spent = 0;
-    for piece in pieces::split(&data, dimension, options.closed, &corners) {
-        let mut problem =
-            Problem::new(&piece.data, dimension, options.degree, closed, goal.measure, tolerance);
+    let to_split = Polyline { closed: options.closed, ..polyline };
+    for piece in pieces::split(&to_split, &corners) {
+        let mut problem = Problem::new(piece.polyline(), options.degree, goal.measure, tolerance);
         problem.pinned = !corners.is_empty();
         let mut watch = |round: usize, attempt: &Attempt, tolerance: f64| {
             watch(spent + round, attempt, tolerance)
@@ -212,11 +222,14 @@ pub fn approximate_curve_observed<'a>(
     control.chunks_exact_mut(dimension).for_each(|point| {
         point.iter_mut().zip(&centre).for_each(|(x, c)| *x += c);
     });
-    let curve = Curve::new(joined.knots.clone(), Points::new(dimension, control)?)?;
+    let knots = match &over {
+        Some(over) => over.knots(&joined.knots)?,
+        None => joined.knots.clone(),
+    };
+    let curve = Curve::new(knots.clone(), Points::new(dimension, control)?)?;
     data.chunks_exact_mut(dimension).for_each(|point| {
         point.iter_mut().zip(&centre).for_each(|(x, c)| *x += c);
     });
-    let view = PointsView::new(dimension, &data)?;
     let natural = joined.natural;
     // A closed curve with corners is cut at the first of them: back to the order of the data.
     let mut starts = joined.parameters;
@@ -226,7 +239,14 @@ pub fn approximate_curve_observed<'a>(
         starts.truncate(count);
         starts.rotate_right(first);
     }
-    let verified = verify::verify(&curve, view, &starts, options.closed)?;
+    if let Some(over) = &over
+        && !closed
+    {
+        starts = kept.iter().map(|&j| over.values[j]).collect();
+    }
+    let polyline =
+        Polyline { data: &data, dimension, closed: options.closed, over: unit.as_deref() };
+    let verified = verify::verify(&curve, &polyline, &starts)?;
     let mut account = verified.account;
     account.met = goal.judged.is_none_or(|limit| match goal.measure {
         Measure::Largest => account.max_distance <= limit,
@@ -257,7 +277,7 @@ pub fn approximate_curve_observed<'a>(
         _ => Termination::Stalled,
     };
     let control = unscaled(curve.control_points().clone(), size.scale)?;
-    let curve = Curve::new(joined.knots, control)?;
+    let curve = Curve::new(knots, control)?;
     let worst = account.worst.first().copied().unwrap_or(0);
     // After all attempts, the one that is returned.
     trace.push(HistoryEntry {
@@ -289,7 +309,7 @@ pub fn approximate_curve_observed<'a>(
         degree: options.degree,
         dimension,
         closed: curve.is_periodic(),
-        parameterization: "foot points",
+        parameterization: over.as_ref().map_or("foot points", |over| over.name),
         knot_placement: "sought",
         spacing_ratio: verified.spacing_ratio,
         shape: None,

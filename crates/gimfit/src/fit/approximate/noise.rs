@@ -46,7 +46,7 @@ fn estimate(polyline: &Polyline<'_>, order: usize, divided: bool) -> f64 {
         .map(|window| {
             let first = window * starts / looked_at;
             for k in 1..=order {
-                let step = if divided { polyline.leg_length(first + k - 1) } else { 1.0 };
+                let step = if divided { polyline.step(first + k - 1) } else { 1.0 };
                 places[k] = places[k - 1] + step;
             }
             for k in 0..=order {
@@ -170,7 +170,8 @@ mod tests {
                         let point = [(6.0 * t).cos(), (6.0 * t).sin(), t];
                         data.extend(point.map(|x| x + deviation * random.normal()));
                     }
-                    let polyline = Polyline { data: &data, dimension: 3, closed: false };
+                    let polyline =
+                        Polyline { data: &data, dimension: 3, closed: false, over: None };
                     let found = super::deviation(&polyline);
                     let range = if uneven > 0.0 { 0.5..2.0 } else { 0.9..1.1 };
                     assert!(
@@ -193,7 +194,7 @@ mod tests {
         };
         let data: Vec<f64> =
             (0..count).flat_map(|j| [place(j), 0.0].map(|x| x + 1e-3 * random.normal())).collect();
-        let polyline = Polyline { data: &data, dimension: 2, closed: false };
+        let polyline = Polyline { data: &data, dimension: 2, closed: false, over: None };
         let (parameters, shift) = smoothed_parameters(&polyline, 1e-3);
         let off = (0..count).map(|j| (parameters[j as usize] - place(j) / 1.5).abs());
         assert!(off.fold(0.0, f64::max) < 5e-3);

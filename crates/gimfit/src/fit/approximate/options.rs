@@ -36,7 +36,7 @@ pub enum Robust {
 }
 
 /// What a caller chooses for [`approximate_curve`](super::approximate_curve).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ApproximationOptions {
     /// What is to be reached.
     pub goal: Goal,
@@ -44,6 +44,11 @@ pub struct ApproximationOptions {
     pub degree: usize,
     /// Whether the curve returns smoothly to its first point, which may be repeated at the end.
     pub closed: bool,
+    /// Where the points are values over an abscissa, such as a signal over time: that of each point, in
+    /// order, repeated ones allowed. They are the parameters of the curve, distances are those of the
+    /// values at the same abscissa, and there are no corners. `None`: points of a curve; of values of
+    /// dimension 1, which have no chords, the abscissa is their number.
+    pub abscissae: Option<Vec<f64>>,
     /// Corners that stay sharp.
     pub corners: Corners,
     /// Whether outliers are looked for, to be left out of the fit and named in the report.
@@ -62,6 +67,14 @@ impl ApproximationOptions {
     /// A cubic that reaches a goal.
     #[must_use]
     pub fn new(goal: Goal) -> Self {
-        Self { goal, degree: 3, closed: false, corners: Corners::Auto, robust: None, rounds: None }
+        Self {
+            goal,
+            degree: 3,
+            closed: false,
+            abscissae: None,
+            corners: Corners::Auto,
+            robust: None,
+            rounds: None,
+        }
     }
 }

@@ -13,20 +13,25 @@ pub(super) struct Piece {
     pub(super) data: Vec<f64>,
     dimension: usize,
     closed: bool,
+    /// The abscissa, on [0, 1], where there is one.
+    over: Option<Vec<f64>>,
 }
 
 impl Piece {
-    fn polyline(&self) -> Polyline<'_> {
-        Polyline { data: &self.data, dimension: self.dimension, closed: self.closed }
+    pub(super) fn polyline(&self) -> Polyline<'_> {
+        let Self { data, dimension, closed, over } = self;
+        Polyline { data, dimension: *dimension, closed: *closed, over: over.as_deref() }
     }
 }
 
-/// Splits at corners; a closed polyline with corners is cut at the first and closes there.
-pub(super) fn split(data: &[f64], dimension: usize, closed: bool, corners: &[usize]) -> Vec<Piece> {
-    let points = data.len() / dimension;
-    let whole = |closed| Piece { data: data.to_vec(), dimension, closed };
+/// Splits at corners, of which points over an abscissa have none; a closed polyline with corners is cut
+/// at the first and closes there.
+pub(super) fn split(polyline: &Polyline<'_>, corners: &[usize]) -> Vec<Piece> {
+    let &Polyline { data, dimension, closed, over } = polyline;
+    let points = polyline.points();
     if corners.is_empty() {
-        return vec![whole(closed)];
+        let over = over.map(<[f64]>::to_vec);
+        return vec![Piece { data: data.to_vec(), dimension, closed, over }];
     }
     let mut ends: Vec<usize> = corners.to_vec();
     if closed {
@@ -43,6 +48,7 @@ pub(super) fn split(data: &[f64], dimension: usize, closed: bool, corners: &[usi
                 .collect(),
             dimension,
             closed: false,
+            over: None,
         })
         .collect()
 }

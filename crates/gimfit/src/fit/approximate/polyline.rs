@@ -7,6 +7,9 @@ pub(in crate::fit) struct Polyline<'a> {
     pub(in crate::fit) data: &'a [f64],
     pub(in crate::fit) dimension: usize,
     pub(in crate::fit) closed: bool,
+    /// Where the points are values over an abscissa: that of each point, on [0, 1]. Distances are then
+    /// those at the same place.
+    pub(in crate::fit) over: Option<&'a [f64]>,
 }
 
 impl<'a> Polyline<'a> {
@@ -27,12 +30,40 @@ impl<'a> Polyline<'a> {
 
     /// Directions across a curve: of the noise in a point, as many coordinates are seen.
     pub(super) fn across(&self) -> f64 {
-        self.dimension.max(2) as f64 - 1.0
+        if self.over.is_some() { self.dimension as f64 } else { self.dimension.max(2) as f64 - 1.0 }
     }
 
     /// Length of leg `j`, from point `j` to the next.
     pub(super) fn leg_length(&self, j: usize) -> f64 {
         distance(self.point(j), self.point(j + 1))
+    }
+
+    /// How far it is along leg `j`: its length, or its part of the abscissa.
+    pub(super) fn step(&self, j: usize) -> f64 {
+        match self.over {
+            None => self.leg_length(j),
+            Some(over) => over.get(j + 1).copied().unwrap_or(1.0 + over[0]) - over[j],
+        }
+    }
+
+    /// How far `x`, which belongs to a share of a leg, is from the polyline nearby; its place there is
+    /// written into `nearest`.
+    pub(super) fn strayed(
+        &self,
+        leg: usize,
+        share: f64,
+        reach: usize,
+        x: &[f64],
+        nearest: &mut [f64],
+    ) -> f64 {
+        if self.over.is_none() {
+            return self.nearest(leg, reach, x, nearest);
+        }
+        let (a, b) = (self.point(leg), self.point(leg + 1));
+        for (i, nearest) in nearest.iter_mut().enumerate() {
+            *nearest = a[i] + share * (b[i] - a[i]);
+        }
+        distance(x, nearest)
     }
 
     /// Nearest point of leg `leg` and its neighbours to `x`, written into `nearest`; its distance.
@@ -90,7 +121,7 @@ fn along(a: &[f64], b: &[f64], x: &[f64]) -> (f64, f64) {
 }
 
 /// How far a local C1 interpolant of the points strays from their polyline: the cubic Hermite
-/// interpolant over centripetal parameters with modified Akima slopes (Akima 1970), which flat and
+/// interpolant over centripetal parameters, or over the abscissa, with modified Akima slopes (Akima 1970), which flat and
 /// straight stretches keep from overshooting. What the data themselves explain is no wiggle.
 pub(super) fn natural_overshoot(polyline: &Polyline<'_>) -> f64 {
     let (points, d) = (polyline.points(), polyline.dimension);
@@ -98,7 +129,11 @@ pub(super) fn natural_overshoot(polyline: &Polyline<'_>) -> f64 {
         return 0.0;
     }
     let legs = polyline.legs();
-    let steps: Vec<f64> = (0..legs).map(|j| polyline.leg_length(j).sqrt()).collect();
+    let along = |j: usize| match polyline.over {
+        None => polyline.leg_length(j).sqrt(),
+        Some(_) => polyline.step(j),
+    };
+    let steps: Vec<f64> = (0..legs).map(along).collect();
     let slopes = akima_slopes(polyline, &steps);
     let mut worst: f64 = 0.0;
     let (mut x, mut nearest) = (vec![0.0; d], vec![0.0; d]);
@@ -121,7 +156,7 @@ pub(super) fn natural_overshoot(polyline: &Polyline<'_>) -> f64 {
                     + s * s * (3.0 - 2.0 * s) * b[i]
                     - s * s * r * steps[leg] * to[i];
             }
-            worst = worst.max(polyline.nearest(leg, 2, &x, &mut nearest));
+            worst = worst.max(polyline.strayed(leg, share, 2, &x, &mut nearest));
         }
     }
     worst
@@ -175,7 +210,7 @@ mod tests {
     #[test]
     fn straight_data_have_no_natural_overshoot_and_round_ones_their_sagitta() {
         let line: Vec<f64> = (0..10).flat_map(|i| [f64::from(i), 2.0 * f64::from(i)]).collect();
-        let polyline = Polyline { data: &line, dimension: 2, closed: false };
+        let polyline = Polyline { data: &line, dimension: 2, closed: false, over: None };
         assert!(natural_overshoot(&polyline) < 1e-14);
         let circle: Vec<f64> = (0..16)
             .flat_map(|i| {
@@ -183,7 +218,7 @@ mod tests {
                 [angle.cos(), angle.sin()]
             })
             .collect();
-        let polyline = Polyline { data: &circle, dimension: 2, closed: true };
+        let polyline = Polyline { data: &circle, dimension: 2, closed: true, over: None };
         let sagitta = 1.0 - (std::f64::consts::PI / 16.0).cos();
         let strayed = natural_overshoot(&polyline);
         assert!((strayed / sagitta - 1.0).abs() < 0.2, "{strayed} {sagitta}");

@@ -59,6 +59,8 @@ pub(super) struct Problem<'a> {
     pub(super) noise: f64,
     /// First parameters, where chords do not tell.
     pub(super) start: Option<Vec<f64>>,
+    /// The abscissa, on [0, 1], where the points are values over one: parameters that stay.
+    pub(super) over: Option<Vec<f64>>,
     /// How many places a parameter may move past its neighbours, and one more.
     pub(super) reach: usize,
     /// Whether outliers are looked for; the curve is not watched between the points then.
@@ -82,14 +84,12 @@ const MOST_GUARDS: usize = 5;
 impl<'a> Problem<'a> {
     /// A smooth piece.
     pub(super) fn new(
-        data: &'a [f64],
-        dimension: usize,
+        polyline: Polyline<'a>,
         degree: usize,
-        closed: bool,
         measure: Measure,
         tolerance: f64,
     ) -> Self {
-        let polyline = Polyline { data, dimension, closed };
+        let Polyline { data, dimension, closed, over } = polyline;
         let natural = natural_overshoot(&polyline);
         let mut problem = Self {
             data,
@@ -104,11 +104,15 @@ impl<'a> Problem<'a> {
             natural,
             noise: 0.0,
             start: None,
+            over: over.map(<[f64]>::to_vec),
             reach: 1,
             robust: None,
             legs: None,
         };
         problem.allow(tolerance);
+        if over.is_some() {
+            return problem;
+        }
         let noise = match measure {
             Measure::Noise => tolerance / problem.across().sqrt(),
             Measure::Rms if polyline.points() > 2 * degree + 2 => noise::deviation(&polyline),
@@ -146,11 +150,14 @@ impl<'a> Problem<'a> {
         let count = self.points();
         let next = positions[1..].iter().copied().chain([positions[0] + count]);
         let joined = positions.iter().zip(next).map(|(&j, next)| next == j + 1).collect();
-        let start = self.start.as_ref();
+        let pick = |values: &Option<Vec<f64>>| {
+            values.as_ref().map(|values| positions.iter().map(|&j| values[j]).collect())
+        };
         Problem {
             data,
             legs: Some(joined),
-            start: start.map(|start| positions.iter().map(|&j| start[j]).collect()),
+            start: pick(&self.start),
+            over: pick(&self.over),
             reach: (self.reach * positions.len() / count).max(1),
             ..*self
         }
@@ -162,21 +169,32 @@ impl<'a> Problem<'a> {
         self.robust.is_none() && self.legs.as_ref().is_none_or(|legs| legs[leg])
     }
 
+    /// How long a leg is where the curve may stray from it: over an abscissa, how far the values are
+    /// apart, or longer where neighbours are farther apart than usual.
+    pub(super) fn leg_length(&self, leg: usize) -> f64 {
+        let polyline = self.polyline();
+        let length = polyline.leg_length(leg);
+        if self.over.is_none() {
+            return length;
+        }
+        let steps = polyline.step(leg) * polyline.legs() as f64;
+        length.max((0.5 * steps - 0.5) * self.allowance)
+    }
+
     /// Legs so long that the curve could stray farther than is allowed between their ends.
     pub(super) fn long_legs(&self) -> impl Iterator<Item = usize> {
         // Noise makes legs of its own; picking the long ones would pick the noise.
         let polyline = self.polyline();
         let least = (0.5 * self.allowance).max(LEG_OF_NOISE * self.noise);
         (0..polyline.legs())
-            .filter(move |&leg| self.is_watched(leg) && polyline.leg_length(leg) > least)
+            .filter(move |&leg| self.is_watched(leg) && self.leg_length(leg) > least)
     }
 
     /// Guards to begin with: more on longer legs.
     pub(super) fn guards(&self) -> Vec<Guard> {
-        let polyline = self.polyline();
         self.long_legs()
             .flat_map(|leg| {
-                let count = (polyline.leg_length(leg) / self.allowance).ceil() as usize;
+                let count = (self.leg_length(leg) / self.allowance).ceil() as usize;
                 let count = count.clamp(1, MOST_GUARDS);
                 (1..=count).map(move |i| Guard { leg, share: i as f64 / (count + 1) as f64 })
             })
@@ -200,8 +218,9 @@ impl<'a> Problem<'a> {
     }
 
     /// The data polyline.
-    pub(super) fn polyline(&self) -> Polyline<'a> {
-        Polyline { data: self.data, dimension: self.dimension, closed: self.closed }
+    pub(super) fn polyline(&self) -> Polyline<'_> {
+        let &Self { data, dimension, closed, ref over, .. } = self;
+        Polyline { data, dimension, closed, over: over.as_deref() }
     }
 
     /// Fewest breakpoints: inner knots of an open curve, knots in a period of a closed one.
@@ -216,7 +235,7 @@ impl<'a> Problem<'a> {
 
     /// Parameters from cumulated chords to a power, on [0, 1]; coinciding points share one.
     pub(super) fn first_parameters(&self, power: f64) -> Vec<f64> {
-        if let Some(start) = &self.start {
+        if let Some(start) = self.over.as_ref().or(self.start.as_ref()) {
             return start.clone();
         }
         let polyline = self.polyline();

@@ -3,6 +3,7 @@
 use super::attempt::{Attempt, Effort};
 use super::noise::median_of_squares;
 use super::options::Robust;
+use super::polyline::Polyline;
 use super::problem::{Measure, Problem};
 use super::sample;
 use crate::Error;
@@ -39,14 +40,10 @@ pub(super) fn outliers(
     }
     // An outlier misleads the parameters of its neighbours: they are judged by a curve without it.
     let data = sample::gather(problem, &others);
-    let without = Problem::new(
-        &data,
-        problem.dimension,
-        problem.degree,
-        problem.closed,
-        problem.measure,
-        problem.tolerance,
-    );
+    let over: Option<Vec<f64>> =
+        problem.over.as_ref().map(|over| others.iter().map(|&j| over[j]).collect());
+    let polyline = Polyline { data: &data, over: over.as_deref(), ..problem.polyline() };
+    let without = Problem::new(polyline, problem.degree, problem.measure, problem.tolerance);
     let fit = sample::grown(&without, breaks, effort)?;
     let knots = fit.knots(&without)?;
     let mut curve = MovingCurve::new(&knots, &fit.control, problem.dimension);
@@ -59,6 +56,10 @@ pub(super) fn outliers(
         let high = places[(after + NEIGHBOURS).min(places.len() - 1)];
         let mut t = places[after.min(places.len() - 1)];
         let mut distance = f64::INFINITY;
+        if let Some(over) = &problem.over {
+            let t = over[j];
+            return curve.foot(problem.point(j), t, (t, t)).1 > limit;
+        }
         for _ in 0..SETTLING {
             (t, distance) = curve.foot(problem.point(j), t, (low, high));
         }

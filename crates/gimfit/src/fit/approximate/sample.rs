@@ -53,6 +53,10 @@ pub(super) fn search(
             return mean_of_more(whole, all, breaks, effort).map(in_order);
         }
         let enough = all.worst <= 1.0;
+        if breaks.is_none() && !enough && is_rough(whole, &sample, &all) {
+            best = Some(all);
+            break;
+        }
         let better = best.as_ref().is_none_or(|best| all.worst < best.worst);
         let joined = join(whole, &mut sample, &all);
         let next = all.at(&sample);
@@ -64,7 +68,11 @@ pub(super) fn search(
         }
         found = Some(next);
     }
-    best.map(in_order).ok_or(Error::LeavesDoubles)
+    let best = best.ok_or(Error::LeavesDoubles)?;
+    if breaks.is_none() && best.worst > 1.0 && !effort.stopped {
+        return grown_on_all(whole, best, effort).map(in_order);
+    }
+    Ok(in_order(best))
 }
 
 /// Parameters in order again, where noise let them pass each other.
@@ -126,8 +134,7 @@ fn first_sample(whole: &Problem<'_>) -> Vec<usize> {
     let mut long: Vec<usize> = whole.long_legs().collect();
     if long.len() > FEW {
         // The longest ones first; the others are met where the curve strays.
-        let polyline = whole.polyline();
-        let length = |leg: usize| polyline.leg_length(leg);
+        let length = |leg: usize| whole.leg_length(leg);
         long.sort_by(|&a, &b| length(b).total_cmp(&length(a)));
         long.truncate(FEW);
     }
@@ -151,7 +158,7 @@ fn spread(whole: &Problem<'_>, sample: &[usize], attempt: &Attempt) -> Result<At
         // Chords of noise are no measure.
         Some(start) if j + 1 < count => start[j + 1] - start[j],
         Some(start) => start[0] + 1.0 - start[j],
-        None => polyline.leg_length(j),
+        None => polyline.step(j),
     };
     let laps = if whole.closed { 1.0 } else { 0.0 };
     let mut all = Attempt::new(whole, attempt.breaks.clone(), vec![0.0; count]);
@@ -180,6 +187,9 @@ fn spread(whole: &Problem<'_>, sample: &[usize], attempt: &Attempt) -> Result<At
     if !whole.closed {
         all.parameters[count - 1] = places[sample.len() - 1];
     }
+    if let Some(over) = &whole.over {
+        all.parameters.clone_from(over);
+    }
     // Places are decided by the few; distances by foot points in their neighbourhood.
     let reach = |gap: usize| {
         let before = places[gap.saturating_sub(1)];
@@ -193,7 +203,10 @@ fn spread(whole: &Problem<'_>, sample: &[usize], attempt: &Attempt) -> Result<At
         }
         let here = all.parameters[j];
         let (low, high) = reach(gap);
-        let room = (low.min(here), high.max(here));
+        let room = match whole.over {
+            Some(_) => (here, here),
+            None => (low.min(here), high.max(here)),
+        };
         all.ratios[j] = curve.foot(whole.point(j), here, room).1 / whole.tolerance;
     }
     if let Some(robust) = whole.robust {
@@ -203,14 +216,37 @@ fn spread(whole: &Problem<'_>, sample: &[usize], attempt: &Attempt) -> Result<At
     Ok(all)
 }
 
+/// Whether a few points cannot stand for all: many of the gaps between them hold one that was missed.
+fn is_rough(whole: &Problem<'_>, sample: &[usize], all: &Attempt) -> bool {
+    const MANY: f64 = 0.25;
+    missed(whole, sample, all).count() as f64 > MANY * sample.len() as f64
+}
+
+/// Grown and thinned out on all points.
+fn grown_on_all(
+    whole: &Problem<'_>,
+    all: Attempt,
+    effort: &mut Effort<'_>,
+) -> Result<Attempt, Error> {
+    /// Rounds over all points, whatever the few have used up.
+    const ROUNDS: usize = 200;
+    effort.most = effort.rounds + ROUNDS * whole.points().div_ceil(ROUND);
+    let grown = search::grow_from(whole, all, usize::MAX, effort)?;
+    if grown.worst > 1.0 { Ok(grown) } else { search::thin(whole, grown, 0, effort) }
+}
+
+/// The worst of the missed points of each gap between two of the few.
+fn missed(whole: &Problem<'_>, sample: &[usize], all: &Attempt) -> impl Iterator<Item = usize> {
+    let ends = sample[1..].iter().copied().chain([whole.points()]);
+    sample.iter().zip(ends).filter_map(|(&start, end)| {
+        let worst = (start + 1..end).max_by(|&a, &b| all.ratios[a].total_cmp(&all.ratios[b]));
+        worst.filter(|&j| all.ratios[j] > 1.0)
+    })
+}
+
 /// Adds the worst of the missed points between two of the few; false if none was missed.
 fn join(whole: &Problem<'_>, sample: &mut Vec<usize>, all: &Attempt) -> bool {
-    let mut missed = Vec::new();
-    let ends = sample[1..].iter().copied().chain([whole.points()]);
-    for (&start, end) in sample.iter().zip(ends) {
-        let worst = (start + 1..end).max_by(|&a, &b| all.ratios[a].total_cmp(&all.ratios[b]));
-        missed.extend(worst.filter(|&j| all.ratios[j] > 1.0));
-    }
+    let missed: Vec<usize> = missed(whole, sample, all).collect();
     sample.extend_from_slice(&missed);
     sample.sort_unstable();
     !missed.is_empty()

@@ -4,7 +4,6 @@ use super::breaks::looks;
 use super::polyline::{Polyline, distance};
 use crate::Error;
 use crate::geometry::Curve;
-use crate::points::PointsView;
 use crate::projection::local_foot_point;
 use crate::report::ApproximationReport;
 
@@ -21,25 +20,34 @@ pub(super) struct Verified {
 /// Points named among the worst.
 const WORST: usize = 5;
 
-/// Projects all data points from their parameters, and samples the curve between them.
+/// Projects all data points from their parameters, or where these stay looks at the points there, and
+/// samples the curve between them.
 pub(super) fn verify(
     curve: &Curve,
-    data: PointsView<'_>,
+    polyline: &Polyline<'_>,
     starts: &[f64],
-    closed: bool,
 ) -> Result<Verified, Error> {
-    let (count, dimension) = (data.len(), data.dimension());
+    let (count, dimension) = (polyline.points(), polyline.dimension);
     let mut parameters = Vec::with_capacity(count);
     let mut difference_vectors = Vec::with_capacity(count * dimension);
     let mut distances = Vec::with_capacity(count);
+    let mut here = vec![0.0; dimension];
     for (j, &start) in starts.iter().enumerate() {
-        let foot = local_foot_point(curve, data.point(j), start)?;
-        difference_vectors.extend(data.point(j).iter().zip(&foot.point).map(|(q, c)| q - c));
-        parameters.push(foot.parameter);
-        distances.push(foot.distance);
+        let point = polyline.point(j);
+        if polyline.over.is_some() {
+            curve.evaluate_into(start, &mut here)?;
+            parameters.push(start);
+            distances.push(distance(point, &here));
+        } else {
+            let foot = local_foot_point(curve, point, start)?;
+            here.copy_from_slice(&foot.point);
+            parameters.push(foot.parameter);
+            distances.push(foot.distance);
+        }
+        difference_vectors.extend(point.iter().zip(&here).map(|(q, c)| q - c));
     }
     // The parameters of the search cover the whole curve; foot points may leave its ends out.
-    let overshoot = overshoot(curve, data, starts, closed)?;
+    let overshoot = overshoot(curve, polyline, starts)?;
     let mut order: Vec<usize> = (0..count).collect();
     order.sort_by(|&a, &b| distances[b].total_cmp(&distances[a]));
     order.truncate(WORST);
@@ -70,14 +78,8 @@ pub(super) fn verify(
 }
 
 /// How far the curve strays from the data polyline, sampled between parameters in order.
-fn overshoot(
-    curve: &Curve,
-    data: PointsView<'_>,
-    parameters: &[f64],
-    closed: bool,
-) -> Result<f64, Error> {
-    let dimension = data.dimension();
-    let polyline = Polyline { data: data.coordinates(), dimension, closed };
+fn overshoot(curve: &Curve, polyline: &Polyline<'_>, parameters: &[f64]) -> Result<f64, Error> {
+    let &Polyline { dimension, closed, over, .. } = polyline;
     let (start, end) = curve.domain();
     let inner = curve.knots().values();
     let mut worst: f64 = 0.0;
@@ -90,7 +92,7 @@ fn overshoot(
         if closed && to < from {
             to += end - start;
         }
-        if to <= end {
+        if to <= end && over.is_none() {
             // No look where the curve cannot get that far.
             curve.evaluate_into(from, &mut point)?;
             let off = polyline.nearest(leg, 3, &point, &mut nearest);
@@ -101,9 +103,10 @@ fn overshoot(
             }
         }
         for t in looks(from, to, inner, false).into_iter().chain([from, to]) {
+            let share = if to > from { (t - from) / (to - from) } else { 0.0 };
             let t = if t > end { t - (end - start) } else { t };
             curve.evaluate_into(t.clamp(start, end), &mut point)?;
-            worst = worst.max(polyline.nearest(leg, 3, &point, &mut nearest));
+            worst = worst.max(polyline.strayed(leg, share, 3, &point, &mut nearest));
         }
     }
     Ok(worst)

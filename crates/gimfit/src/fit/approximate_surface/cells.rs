@@ -177,7 +177,7 @@ impl Cells<'_> {
                 .collect::<Vec<f64>>()
         });
         let middles = |data: &[f64], dimension: usize, k: usize| -> Vec<f64> {
-            let polyline = Polyline { data, dimension, closed: self.closed[k] };
+            let polyline = Polyline { data, dimension, closed: self.closed[k], over: None };
             if polyline.points() < 3 {
                 let legs = polyline.legs();
                 return (0..legs)
