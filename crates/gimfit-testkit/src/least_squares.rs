@@ -324,3 +324,32 @@ pub fn extended(a: &Rows, q: &Rows, start: &Rows, steps: usize) -> Vec<Rows> {
         next
     })
 }
+
+/// The least squares fit `min |A P - Q|` with `G x = r`, where x holds the rows of P one after the
+/// other, from the Karush-Kuhn-Tucker system as one full matrix.
+#[must_use]
+pub fn constrained_solution(a: &Rows, q: &Rows, g: &Rows, r: &[f64]) -> Rows {
+    let (columns, dimension, demands) = (a[0].len(), q[0].len(), g.len());
+    let size = columns * dimension;
+    let normal = multiply(&transpose(a), a);
+    let right = multiply(&transpose(a), q);
+    let mut kkt = vec![vec![0.0; size + demands]; size + demands];
+    let mut b = vec![vec![0.0]; size + demands];
+    for i in 0..columns {
+        for c in 0..dimension {
+            for k in 0..columns {
+                kkt[i * dimension + c][k * dimension + c] = normal[i][k];
+            }
+            b[i * dimension + c][0] = right[i][c];
+        }
+    }
+    for (k, (row, value)) in g.iter().zip(r).enumerate() {
+        for (i, weight) in row.iter().enumerate() {
+            kkt[size + k][i] = *weight;
+            kkt[i][size + k] = *weight;
+        }
+        b[size + k][0] = *value;
+    }
+    let x = crate::dense::solve(&kkt, &b);
+    (0..columns).map(|i| (0..dimension).map(|c| x[i * dimension + c][0]).collect()).collect()
+}

@@ -221,6 +221,16 @@ pub enum Error {
         /// Number of points.
         points: usize,
     },
+    /// Constraints of a least squares fit that no control points meet together.
+    #[error(
+        "no curve over these knots meets these constraints together (points counted from 0): {constraints}; take one of them out, or use more control points"
+    )]
+    ConstraintsConflict {
+        /// Their positions in the order they were added, from 0.
+        positions: Vec<usize>,
+        /// Their names; points are counted from 0.
+        constraints: String,
+    },
     /// Choices that exclude each other.
     #[error("{what} cannot be used with {with}: {why}")]
     Incompatible {

@@ -62,15 +62,15 @@ pub mod fit;
 pub use error::Error;
 pub use fit::{
     ApproximationOptions, BlendingCurveFit, BlendingOptions, BlendingSurfaceFit,
-    BlendingSurfaceOptions, Convexity, Corners, CurveDiagnosis, CurveFit, CurveOptions, EditReport,
-    EditableCurve, EditableSurface, Goal, IterationWeight, KeptFit, KeptFootPoints,
-    LeastSquaresKnots, LeastSquaresMethod, LeastSquaresOptions, LeastSquaresSurfaceOptions,
-    LeastSquaresWeight, Method, Robust, SurfaceApproximationOptions, SurfaceEditReport, SurfaceFit,
-    SurfaceGoal, SurfaceOptions, SurfaceWeight, TriangleFit, TriangleOptions, approximate_curve,
-    approximate_curve_observed, approximate_surface, diagnose_blending_curve, diagnose_curve,
-    fit_blending_curve, fit_blending_surface, fit_curve, fit_curve_observed, fit_least_squares,
-    fit_least_squares_observed, fit_least_squares_surface, fit_surface, fit_surface_observed,
-    fit_triangular_patch,
+    BlendingSurfaceOptions, Constraints, Convexity, Corners, CurveDiagnosis, CurveFit,
+    CurveOptions, EditReport, EditableCurve, EditableSurface, Goal, IterationWeight, KeptFit,
+    KeptFootPoints, LeastSquaresKnots, LeastSquaresMethod, LeastSquaresOptions,
+    LeastSquaresSurfaceOptions, LeastSquaresWeight, Method, Robust, SurfaceApproximationOptions,
+    SurfaceEditReport, SurfaceFit, SurfaceGoal, SurfaceOptions, SurfaceWeight, TriangleFit,
+    TriangleOptions, approximate_curve, approximate_curve_observed, approximate_surface,
+    diagnose_blending_curve, diagnose_curve, fit_blending_curve, fit_blending_surface, fit_curve,
+    fit_curve_observed, fit_least_squares, fit_least_squares_observed, fit_least_squares_surface,
+    fit_surface, fit_surface_observed, fit_triangular_patch,
 };
 pub use fit::{SurfaceDiagnosis, diagnose_blending_surface, diagnose_surface};
 pub use fit::{curve_choices, surface_choices, usual_distances};

@@ -1,6 +1,7 @@
 //! Least squares with given knots and parameters: a method of that family with `--control-points` or
 //! a file of knots.
 
+use super::constraints;
 use super::plan::Shape;
 use crate::arguments::{CurveArguments, DuplicatesChoice, KnotRule, MethodChoice, RuleOrFile};
 use crate::input;
@@ -9,7 +10,8 @@ use crate::values;
 use anyhow::{anyhow, bail, ensure};
 use clap::Args;
 use gimfit::{
-    LeastSquaresKnots, LeastSquaresMethod, LeastSquaresOptions, LeastSquaresWeight, Points,
+    Constraints, LeastSquaresKnots, LeastSquaresMethod, LeastSquaresOptions, LeastSquaresWeight,
+    Points,
 };
 use gimfit_io::document::{Geometry, read_document};
 use std::path::{Path, PathBuf};
@@ -24,6 +26,12 @@ pub(crate) struct LeastSquaresArguments {
     /// With a method of least squares: start an open curve at the first point and end it at the last
     #[arg(long, help_heading = "Least squares")]
     pub(crate) hold_ends: bool,
+
+    /// With a method of least squares: file of what the curve meets exactly, a line each: `through
+    /// ROW`, `tangent ROW X Y..`, `normal ROW X Y..`, `derivative ROW ORDER X Y..`, `control NUMBER X
+    /// Y..`; rows and control points count from 1
+    #[arg(long, value_name = "FILE", help_heading = "Least squares")]
+    pub(crate) constraints: Option<PathBuf>,
 
     /// With a method of least squares: document of a fitted curve (.json) whose control points the
     /// iteration starts from [default: chosen data points]
@@ -67,6 +75,7 @@ pub(super) fn options(
         let foreign = [
             ("--data-weights", own.data_weights.is_some()),
             ("--hold-ends", own.hold_ends),
+            ("--constraints", own.constraints.is_some()),
             ("--start", own.start.is_some()),
             ("--seed", own.seed.is_some()),
         ];
@@ -86,6 +95,10 @@ pub(super) fn options(
         Some(path) => Some(input::numbers_of_rows(path, "--data-weights", &shape.table)?),
         None => None,
     };
+    let constraints = match &own.constraints {
+        Some(path) => constraints::read(path, shape.table.rows())?,
+        None => Constraints::new(),
+    };
     let iteration = &arguments.iteration;
     Ok(Some(LeastSquaresOptions {
         degree: shape.options.degree,
@@ -93,6 +106,7 @@ pub(super) fn options(
         parameterization: shape.options.parameterization.clone(),
         data_weights,
         hold_ends: own.hold_ends,
+        constraints,
         start: own.start.as_deref().map(start).transpose()?,
         method,
         weight: weight(&iteration.weight)?,

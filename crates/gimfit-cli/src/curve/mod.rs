@@ -1,6 +1,7 @@
 //! `gimfit curve`: the main job.
 
 mod approximation;
+mod constraints;
 mod draw;
 pub(crate) mod edit;
 mod explain_fit;
@@ -124,7 +125,12 @@ pub(crate) fn run(arguments: &CurveArguments) -> anyhow::Result<Ending> {
     signal::enter(Stage::Writing);
     progress.finish();
     let (fit, blending) =
-        result.map_err(|error| explain_fit(error, &table, &arguments.input, &arguments.shape))?;
+        result.map_err(|error| match (&error, &arguments.least_squares.constraints) {
+            (Error::ConstraintsConflict { positions, .. }, Some(path)) => {
+                constraints::conflict(path, positions)
+            }
+            _ => explain_fit(error, &table, &arguments.input, &arguments.shape),
+        })?;
 
     let basis = match &recipe {
         Recipe::Blend(basis) => Some(described(basis.as_ref())),

@@ -232,6 +232,9 @@ pub(super) fn inputs(arguments: &CurveArguments) -> Vec<(&str, &Path)> {
     if let Some(path) = &arguments.least_squares.data_weights {
         inputs.push(("--data-weights", path));
     }
+    if let Some(path) = &arguments.least_squares.constraints {
+        inputs.push(("--constraints", path));
+    }
     if let Some(path) = &arguments.least_squares.start {
         inputs.push(("--start", path));
     }

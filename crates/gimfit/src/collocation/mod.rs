@@ -5,6 +5,7 @@ mod banded;
 mod bordered;
 mod build;
 mod chosen;
+mod constrained;
 mod dense;
 mod dense_factor;
 // Fairing and surfaces over clouds come next.
@@ -32,6 +33,7 @@ pub use banded::BandedCollocation;
 pub(crate) use build::wrap;
 pub use build::{Interpolation, interpolation};
 pub(crate) use chosen::ChosenCollocation;
+pub(crate) use constrained::{ConstrainedCollocation, ConstraintRow, Metric, independent};
 pub use dense::{DenseCollocation, MAX_DENSE_POINTS};
 #[allow(unused_imports)]
 pub(crate) use energy::EnergyBand;

@@ -23,18 +23,21 @@ pub(super) struct Setting<'a> {
     pub(super) seed: u64,
     /// Steps of the way there that are wanted, where the method is left to us.
     pub(super) gradual: usize,
+    /// Whether constraints may couple the coordinates.
+    pub(super) coupled: bool,
 }
 
 /// Prepares the rule of a method.
 pub(super) fn choose<'a>(method: Method, setting: &Setting<'a>) -> Result<ChosenRule<'a>, Error> {
-    let &Setting { operator, normal, data, dimension, weight, seed, gradual } = setting;
+    let &Setting { operator, normal, data, dimension, weight, seed, gradual, coupled } = setting;
     check_weight(method, weight)?;
     let matrix = normal.matrix();
     let length = operator.stays().len() * dimension;
     let mut choices = Vec::new();
     let mut smallest_eigenvalue = None;
     let gradients = |preconditioner| -> Box<dyn UpdateRule + 'a> {
-        Box::new(ConjugateGradients::new(matrix, preconditioner, dimension))
+        let rule = ConjugateGradients::new(matrix, preconditioner, dimension);
+        Box::new(if coupled { rule.joint() } else { rule })
     };
     // Where no control point moves there are no eigenvalues, and any weight will do.
     let mut spectrum = |scaled: bool| {
@@ -173,7 +176,10 @@ const FREE: f64 = 1e-13;
 const SHARE: f64 = 1e-8;
 
 /// The factors of the normal matrix, or of one close to it where it is singular.
-fn whole_band(normal: &NormalMatrix, choices: &mut Vec<String>) -> Result<Preconditioner, Error> {
+pub(super) fn whole_band(
+    normal: &NormalMatrix,
+    choices: &mut Vec<String>,
+) -> Result<Preconditioner, Error> {
     let factors = normal.matrix().factor(None).ok();
     if let Some(factors) = factors.filter(|factors| smallest_scaled(factors, normal) > FREE) {
         return Ok(Preconditioner::Factors(factors));

@@ -1,5 +1,6 @@
 //! Least squares curves with given knots and parameters, by the LSPIA family.
 
+mod constrain;
 mod method;
 mod options;
 mod place;
@@ -280,8 +281,22 @@ fn solve_problem(
         weight: options.weight,
         seed: options.seed,
         gradual: options.keep.iter().copied().max().unwrap_or(0).min(options.iterations),
+        coupled: !options.constraints.is_empty(),
     };
     let mut chosen = choose(options.method, &setting)?;
+    let constrained = constrain::constrained(
+        options,
+        &constrain::Setting {
+            operator: &operator,
+            normal: &normal,
+            data,
+            dimension,
+            parameters: &sites.values,
+            knots: &knots,
+            size: &size,
+        },
+        &mut start,
+    )?;
     let stopping = size.stopping(options.residual, options.iterations, &mut choices)?;
     choices.append(&mut chosen.choices);
     chosen.choices = choices;
@@ -291,7 +306,7 @@ fn solve_problem(
     };
     let expand = |control| layout.expand(control, dimension);
     let task = Task {
-        operator: &operator,
+        operator: constrained.as_ref().map_or(&operator as _, |constrained| constrained as _),
         data,
         dimension,
         size: &size,
@@ -300,9 +315,18 @@ fn solve_problem(
         expand: &expand,
         foot_points: None,
     };
-    let Solved { control, mut run, sequence, .. } =
+    let Solved { mut control, mut run, sequence, .. } =
         solve_from(&task, &start, &mut chosen, observer)?;
     drop(chosen);
+    if let Some(constrained) = &constrained {
+        // Steps keep the constraints but for rounding.
+        constrained.make_feasible(&mut control, dimension);
+        run.choices.push(format!(
+            "constraints: met within {:.1e}",
+            size.scale.undo(constrained.residual(&control))
+        ));
+    }
+    drop(constrained);
     if let Some(account) = &mut run.least_squares {
         account.unmet_control_points = unmet;
     }

@@ -1,5 +1,6 @@
 //! What a caller chooses for a least squares fit.
 
+use crate::fit::Constraints;
 use crate::parameters::Parameterization;
 use crate::points::Points;
 
@@ -111,6 +112,8 @@ pub struct LeastSquaresOptions {
     /// Whether an open curve starts at the first data point and ends at the last: their control points
     /// are held there, and the others are fitted to the rest.
     pub hold_ends: bool,
+    /// What the curve meets exactly: with the methods auto, lspia, column-sums, cgls and pcg.
+    pub constraints: Constraints,
     /// Control points to start from, one per control point that moves; `None`: chosen data points.
     /// They decide where the data leave control points free.
     pub start: Option<Points>,
@@ -147,6 +150,7 @@ impl LeastSquaresOptions {
             parameterization: None,
             data_weights: None,
             hold_ends: false,
+            constraints: Constraints::new(),
             start: None,
             method: LeastSquaresMethod::Auto,
             weight: LeastSquaresWeight::Auto,

@@ -34,6 +34,8 @@ pub struct ConjugateGradients<'a> {
     /// `<s, z>` of this step and of the one before, and `<d, N d>`: three numbers per coordinate.
     sums: Vec<[f64; 3]>,
     started: bool,
+    /// Whether all coordinates share a step.
+    joint: bool,
 }
 
 impl<'a> ConjugateGradients<'a> {
@@ -52,6 +54,23 @@ impl<'a> ConjugateGradients<'a> {
             product: memory::zeros(length),
             sums: vec![[0.0; 3]; dimension],
             started: false,
+            joint: false,
+        }
+    }
+
+    /// Takes one step length for all coordinates: where constraints couple them, coordinates that go
+    /// their own way would leave these.
+    #[must_use]
+    pub fn joint(mut self) -> Self {
+        self.joint = true;
+        self
+    }
+
+    /// Adds up a sum over all coordinates, where they share it.
+    fn share(&mut self, which: usize) {
+        if self.joint {
+            let whole = self.sums.iter().map(|sums| sums[which]).sum();
+            self.sums.iter_mut().for_each(|sums| sums[which] = whole);
         }
     }
 }
@@ -78,6 +97,7 @@ impl UpdateRule for ConjugateGradients<'_> {
                 sums[0] += s * z;
             }
         }
+        self.share(0);
         let started = std::mem::replace(&mut self.started, true);
         let pairs = self.direction.chunks_exact_mut(dimension).zip(vectors.chunks_exact(dimension));
         for (d, z) in pairs {
@@ -93,6 +113,7 @@ impl UpdateRule for ConjugateGradients<'_> {
                 sums[2] += d * n;
             }
         }
+        self.share(2);
         let pairs = vectors.chunks_exact_mut(dimension).zip(self.direction.chunks_exact(dimension));
         for (vector, d) in pairs {
             for ((x, d), sums) in vector.iter_mut().zip(d).zip(&self.sums) {
