@@ -78,7 +78,7 @@ fn one(list: Constraints, kind: &str, words: &[&str], rows: usize) -> anyhow::Re
     };
     Ok(match kind {
         "through" => {
-            ensure!(words.len() == 1, "through takes one row; write a line for each");
+            ensure!(words.len() <= 1, "through takes one row; write a line for each");
             list.through(row()?)
         }
         "tangent" => list.tangent(row()?, &vector(1)?),
