@@ -48,6 +48,9 @@ fn faults_of_the_file_are_named_by_line() {
     refused("tangent 1", &["coordinates"]);
     refused("tangent 1 x 0", &["\"x\" is no number"]);
     refused("touch 1", &["no constraint \"touch\""]);
+    refused("straight 3 1 0", &["first or last"]);
+    refused("planar last 30 1 0", &["fewer control points"]);
+    refused("mirror 3 0", &["no such coordinate"]);
     refused("# nothing\n", &["no constraint in it"]);
     place.run("curve wave.csv --constraints bad.txt").code(2).says(&["--constraints"]);
     let line = "curve wave.csv --method lspia --control-points 12 --constraints none.txt";

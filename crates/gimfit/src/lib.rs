@@ -62,7 +62,7 @@ pub mod fit;
 pub use error::Error;
 pub use fit::{
     ApproximationOptions, BlendingCurveFit, BlendingOptions, BlendingSurfaceFit,
-    BlendingSurfaceOptions, Constraints, Convexity, Corners, CurveDiagnosis, CurveFit,
+    BlendingSurfaceOptions, Constraints, Convexity, Corners, CurveDiagnosis, CurveEnd, CurveFit,
     CurveOptions, EditReport, EditableCurve, EditableSurface, Goal, IterationWeight, KeptFit,
     KeptFootPoints, LeastSquaresKnots, LeastSquaresMethod, LeastSquaresOptions,
     LeastSquaresSurfaceOptions, LeastSquaresWeight, Method, Robust, SurfaceApproximationOptions,

@@ -1,8 +1,8 @@
 //! Least squares with constraints against the Karush-Kuhn-Tucker system as one full matrix.
 
 use gimfit::{
-    Constraints, CurveFit, Error, LeastSquaresMethod as Method, LeastSquaresOptions,
-    fit_least_squares,
+    Constraints, CurveEnd, CurveFit, Error, LeastSquaresKnots, LeastSquaresMethod as Method,
+    LeastSquaresOptions, fit_least_squares,
 };
 use gimfit_testkit::dense::Rows;
 use gimfit_testkit::generate::Random;
@@ -167,4 +167,56 @@ fn scales_far_from_one_are_met_alike() {
         let there = fit.curve.evaluate(fit.parameters[23]).unwrap();
         assert!((there[1] - data[23][1]).abs() < 1e-13 * scale);
     }
+}
+
+#[test]
+fn straight_ends_and_mirrored_curves_are_those_of_the_full_system() {
+    let data = data();
+    let mut knots = vec![0.0; 4];
+    knots.extend((1..8).map(|k| f64::from(k) / 8.0));
+    knots.extend([1.0; 4]);
+    let t: Vec<f64> = (0..60).map(|j| f64::from(j) / 59.0).collect();
+    let a = collocation_matrix(&knots, 3, &t);
+    let q: Rows = data.iter().map(|q| q.to_vec()).collect();
+    let at = |i: usize, j: usize, s: f64| {
+        row(move |k| f64::from(u8::from(k == i)) + s * f64::from(u8::from(k == j)), [1.0, 1.0])
+    };
+    let only = |mut row: Vec<f64>, weights: [f64; 2]| {
+        row.iter_mut().enumerate().for_each(|(k, x)| *x *= weights[k % 2]);
+        row
+    };
+    let straight = (7..10).map(|i| only(at(i + 1, i, -1.0), [2.0, 1.0])).collect::<Rows>();
+    let mut mirrored = Rows::new();
+    let mut sums = Vec::new();
+    for i in 0..5 {
+        mirrored.push(only(at(i, 10 - i, 1.0), [1.0, 0.0]));
+        mirrored.push(only(at(i, 10 - i, -1.0), [0.0, 1.0]));
+        sums.extend([6.0, 0.0]);
+    }
+    mirrored.push(only(at(5, 5, 0.0), [1.0, 0.0]));
+    sums.push(3.0);
+    let cases = [
+        (Constraints::new().straight_end(CurveEnd::Last, 4, &[1.0, -2.0]), &straight, vec![0.0; 3]),
+        (Constraints::new().planar_end(CurveEnd::Last, 4, &[2.0, 1.0]), &straight, vec![0.0; 3]),
+        (Constraints::new().mirrored(0, 3.0), &mirrored, sums),
+    ];
+    for (constraints, g, r) in cases {
+        let oracle = constrained_solution(&a, &q, g, &r);
+        for method in METHODS {
+            let options = LeastSquaresOptions {
+                method,
+                knots: LeastSquaresKnots::Given(knots.clone()),
+                parameterization: Some(gimfit::Parameterization::Given(t.clone())),
+                ..options(constraints.clone())
+            };
+            let fit = fit_least_squares(&data, &options).unwrap();
+            let off = distance(&control(&fit), &oracle);
+            assert!(off < 1e-9, "{method:?} is off by {off:e}");
+        }
+        let closed = LeastSquaresOptions { closed: true, ..options(constraints) };
+        let error = fit_least_squares(&data, &closed).unwrap_err();
+        assert!(error.to_string().contains("closed curve"), "{error}");
+    }
+    let error = fit_least_squares(&data, &options(Constraints::new().mirrored(0, 3.0)));
+    assert!(error.unwrap_err().to_string().contains("symmetric knots"));
 }

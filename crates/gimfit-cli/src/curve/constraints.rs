@@ -1,11 +1,12 @@
 //! What a least squares curve shall meet, from a file: one line each.
 
 use anyhow::{Context, anyhow, bail, ensure};
-use gimfit::Constraints;
+use gimfit::{Constraints, CurveEnd};
 use std::path::Path;
 
-const KINDS: &str = "through ROW, tangent ROW X Y.., normal ROW X Y.., derivative ROW ORDER X Y.. and \
-                     control NUMBER X Y..";
+const KINDS: &str = "through ROW, tangent ROW X Y.., normal ROW X Y.., derivative ROW ORDER X Y.., \
+                     control NUMBER X Y.., straight first|last COUNT X Y.., planar first|last COUNT X Y.. \
+                     and mirror COORDINATE VALUE";
 
 /// What stands before a remark.
 fn words(line: &str) -> Vec<&str> {
@@ -85,6 +86,22 @@ fn one(list: Constraints, kind: &str, words: &[&str], rows: usize) -> anyhow::Re
         "normal" => list.normal(row()?, &vector(1)?),
         "derivative" => list.derivative(row()?, count(1, "order")?, &vector(2)?),
         "control" => list.pinned(count(0, "number of a control point")? - 1, &vector(1)?),
+        "straight" | "planar" => {
+            let end = match words.first() {
+                Some(&"first") => CurveEnd::First,
+                Some(&"last") => CurveEnd::Last,
+                _ => bail!("{kind} needs the end: first or last"),
+            };
+            let (control_points, vector) = (count(1, "number of control points")?, vector(2)?);
+            match kind {
+                "straight" => list.straight_end(end, control_points, &vector),
+                _ => list.planar_end(end, control_points, &vector),
+            }
+        }
+        "mirror" => {
+            ensure!(words.len() <= 2, "mirror takes a coordinate, from 1, and a value");
+            list.mirrored(count(0, "number of a coordinate")? - 1, vector(1)?[0])
+        }
         _ => bail!("there is no constraint {kind:?}; lines are {KINDS}"),
     })
 }

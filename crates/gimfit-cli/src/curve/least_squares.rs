@@ -29,7 +29,8 @@ pub(crate) struct LeastSquaresArguments {
 
     /// With a method of least squares: file of what the curve meets exactly, a line each: `through
     /// ROW`, `tangent ROW X Y..`, `normal ROW X Y..`, `derivative ROW ORDER X Y..`, `control NUMBER X
-    /// Y..`; rows and control points count from 1
+    /// Y..`, `straight first|last COUNT X Y..`, `planar first|last COUNT X Y..`, `mirror COORDINATE
+    /// VALUE`; rows, coordinates and control points count from 1
     #[arg(long, value_name = "FILE", help_heading = "Least squares")]
     pub(crate) constraints: Option<PathBuf>,
 

@@ -3,7 +3,7 @@
 use crate::Error;
 use crate::basis::basis_derivatives;
 use crate::collocation::ConstraintRow;
-use crate::knots::KnotVector;
+use crate::knots::{Boundary, KnotVector};
 
 /// Linear demands that a least squares curve meets exactly, while it is as near all other data as
 /// these allow. Points are named by their position among the data, from 0, and are met at their
@@ -39,6 +39,27 @@ enum Constraint {
     Tangent { point: usize, direction: Vec<f64> },
     Normal { point: usize, normal: Vec<f64> },
     Pinned { control_point: usize, place: Vec<f64> },
+    StraightEnd { end: CurveEnd, control_points: usize, direction: Vec<f64> },
+    PlanarEnd { end: CurveEnd, control_points: usize, normal: Vec<f64> },
+    Mirrored { coordinate: usize, value: f64 },
+}
+
+/// An end of an open curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CurveEnd {
+    /// Where it starts.
+    First,
+    /// Where it ends.
+    Last,
+}
+
+impl CurveEnd {
+    fn as_str(self) -> &'static str {
+        match self {
+            Self::First => "first",
+            Self::Last => "last",
+        }
+    }
 }
 
 impl Constraints {
@@ -91,6 +112,29 @@ impl Constraints {
         self.with(Constraint::Pinned { control_point, place: place.to_vec() })
     }
 
+    /// So many control points of an end stand on a line of this direction, wherever it lies: with more
+    /// than the degree of them the curve starts, or ends, with a straight piece. Open curves only.
+    #[must_use]
+    pub fn straight_end(self, end: CurveEnd, control_points: usize, direction: &[f64]) -> Self {
+        let direction = direction.to_vec();
+        self.with(Constraint::StraightEnd { end, control_points, direction })
+    }
+
+    /// So many control points of an end stand on a plane perpendicular to this vector, wherever it
+    /// lies. Open curves only.
+    #[must_use]
+    pub fn planar_end(self, end: CurveEnd, control_points: usize, normal: &[f64]) -> Self {
+        let normal = normal.to_vec();
+        self.with(Constraint::PlanarEnd { end, control_points, normal })
+    }
+
+    /// The control points are those of the curve run backwards and mirrored where a coordinate has this
+    /// value: in the plane at a line, in space at a plane. Open curves over symmetric knots only.
+    #[must_use]
+    pub fn mirrored(self, coordinate: usize, value: f64) -> Self {
+        self.with(Constraint::Mirrored { coordinate, value })
+    }
+
     /// The constraint at a position, in words.
     pub(super) fn name(&self, owner: usize) -> String {
         match &self.list[owner] {
@@ -101,6 +145,13 @@ impl Constraints {
             Constraint::Tangent { point, .. } => format!("tangent at point {point}"),
             Constraint::Normal { point, .. } => format!("normal at point {point}"),
             Constraint::Pinned { control_point, .. } => format!("control point {control_point}"),
+            Constraint::StraightEnd { end, control_points, .. } => {
+                format!("straight {} {control_points} control points", end.as_str())
+            }
+            Constraint::PlanarEnd { end, control_points, .. } => {
+                format!("planar {} {control_points} control points", end.as_str())
+            }
+            Constraint::Mirrored { coordinate, .. } => format!("mirrored coordinate {coordinate}"),
         }
     }
 
@@ -181,6 +232,50 @@ impl Constraints {
                     let only = [(*control_point, 1.0)];
                     (0..dimension).for_each(|c| push(&only, &unit(c), up(place[c])));
                 }
+                Constraint::StraightEnd { end, control_points, direction } => {
+                    let tau = self.direction(owner, direction, dimension)?;
+                    check(
+                        "number",
+                        *control_points,
+                        columns + 1,
+                        "there are fewer control points",
+                    )?;
+                    open_only(knots)?;
+                    for legs in legs(*end, *control_points, columns) {
+                        across(&tau).iter().for_each(|across| push(&legs, across, 0.0));
+                    }
+                }
+                Constraint::PlanarEnd { end, control_points, normal } => {
+                    let normal = self.direction(owner, normal, dimension)?;
+                    check(
+                        "number",
+                        *control_points,
+                        columns + 1,
+                        "there are fewer control points",
+                    )?;
+                    open_only(knots)?;
+                    for leg in legs(*end, *control_points, columns) {
+                        push(&leg, &normal, 0.0);
+                    }
+                }
+                Constraint::Mirrored { coordinate, value } => {
+                    check("coordinate", *coordinate, dimension, "there is no such coordinate")?;
+                    let value = up(self.vector(owner, &[*value], 1)?[0]);
+                    open_only(knots)?;
+                    check_symmetric(knots)?;
+                    for i in 0..columns.div_ceil(2) {
+                        let other = columns - 1 - i;
+                        for c in 0..dimension {
+                            let sign = if c == *coordinate { 1.0 } else { -1.0 };
+                            let sum = if c == *coordinate { 2.0 * value } else { 0.0 };
+                            if i < other {
+                                push(&[(i, 1.0), (other, sign)], &unit(c), sum);
+                            } else if sign > 0.0 {
+                                push(&[(i, 1.0)], &unit(c), value);
+                            }
+                        }
+                    }
+                }
             }
         }
         Ok(rows)
@@ -225,6 +320,58 @@ impl Constraints {
         let length = scaled.iter().map(|x| x * x).sum::<f64>().sqrt();
         Ok(scaled.iter().map(|x| x / length).collect())
     }
+}
+
+/// Vectors that span what is perpendicular to one of length 1. Of the rows of `I - tau tau^T`, that of
+/// the largest coordinate follows from the others.
+fn across(tau: &[f64]) -> Vec<Vec<f64>> {
+    let larger = |most: usize, c: usize| if tau[c].abs() > tau[most].abs() { c } else { most };
+    let most = (0..tau.len()).fold(0, larger);
+    let others = (0..tau.len()).filter(|&c| c != most);
+    others
+        .map(|c| {
+            let mut across = vec![0.0; tau.len()];
+            across[c] = tau[most];
+            across[most] = -tau[c];
+            across
+        })
+        .collect()
+}
+
+/// The legs of the control polygon at an end, each as the later control point less the earlier one.
+fn legs(end: CurveEnd, control_points: usize, columns: usize) -> Vec<[(usize, f64); 2]> {
+    let first = match end {
+        CurveEnd::First => 0,
+        CurveEnd::Last => columns - control_points,
+    };
+    (first + 1..first + control_points).map(|i| [(i - 1, -1.0), (i, 1.0)]).collect()
+}
+
+fn open_only(knots: &KnotVector) -> Result<(), Error> {
+    if knots.boundary() == Boundary::Open {
+        return Ok(());
+    }
+    Err(Error::Incompatible {
+        what: "a straight or planar end, or a mirrored curve,",
+        with: "a closed curve",
+        why: "it has no ends; leave the constraint or `closed` out",
+    })
+}
+
+fn check_symmetric(knots: &KnotVector) -> Result<(), Error> {
+    let (start, end) = knots.domain();
+    let values = knots.values();
+    let pairs = values.iter().zip(values.iter().rev());
+    if pairs.fold(0.0, |most: f64, (a, b)| most.max((a - start - (end - b)).abs()))
+        <= 1e-9 * (end - start)
+    {
+        return Ok(());
+    }
+    Err(Error::Incompatible {
+        what: "a mirrored curve",
+        with: "these knots",
+        why: "they must be the same from both ends; give symmetric knots",
+    })
 }
 
 /// The control points that a derivative at a parameter takes part of, rising, with weights.

@@ -39,7 +39,7 @@ pub use blending_surface::{
     BlendingSurfaceFit, fit_blending_surface, fit_blending_surface_observed,
 };
 pub use choices::{curve_choices, surface_choices, usual_distances};
-pub use constraints::Constraints;
+pub use constraints::{Constraints, CurveEnd};
 pub use curve::{CurveFit, fit_curve, fit_curve_observed, interpolate};
 pub use diagnose::{CurveDiagnosis, diagnose_blending_curve, diagnose_curve};
 pub use diagnose_surface::{SurfaceDiagnosis, diagnose_blending_surface, diagnose_surface};
