@@ -408,3 +408,24 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn where_nothing_is_calm_the_distance_is_kept_with_no_more_control_points_than_points() {
+    // An islet of four points, and a polygon whose points are all corners.
+    let islet =
+        [[180.0, -16.49045], [180.0, -16.53482], [179.98083, -16.53964], [180.0, -16.49045]];
+    let star: Vec<[f64; 2]> = (0..24)
+        .map(|i| {
+            let (angle, radius) = (f64::from(i) * 0.26, f64::from(1 + i % 2));
+            [radius * angle.cos(), radius * angle.sin()]
+        })
+        .collect();
+    for (points, tolerance) in [(islet.to_vec(), 5e-5), (islet.to_vec(), 5e-6), (star, 1e-4)] {
+        let fit = approximate_curve(&points, &ApproximationOptions::within(tolerance)).unwrap();
+        let account = fit.report.approximation.as_ref().unwrap();
+        assert!(account.met && account.max_distance <= tolerance);
+        assert!(account.is_calm() || fit.curve.control_points().len() <= points.len());
+        let rows: Vec<Vec<f64>> = points.iter().map(|p| p.to_vec()).collect();
+        check_figures(&rows, &fit, false);
+    }
+}

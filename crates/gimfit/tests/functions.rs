@@ -83,6 +83,9 @@ fn repeated_and_uneven_abscissae_are_fitted() {
     // Two values at one abscissa lie 0.1 apart: nothing comes closer than half of that.
     let close =
         approximate_curve(view, &over(&abscissae, ApproximationOptions::within(0.04))).unwrap();
+    assert!(
+        close.report.run.choices.iter().any(|line| line.contains("points 0 and 1 are 1.000e-1"))
+    );
     let account = close.report.approximation.unwrap();
     assert!(!account.met && account.max_distance >= 0.05 - 1e-12);
 }

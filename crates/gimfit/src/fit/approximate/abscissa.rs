@@ -1,6 +1,7 @@
 //! Values over an abscissa: parameters that stay.
 
 use super::options::{ApproximationOptions, Corners};
+use super::polyline::{Polyline, distance};
 use crate::Error;
 use crate::knots::{Boundary, KnotVector};
 
@@ -38,6 +39,29 @@ impl Abscissa {
         }
     }
 }
+
+/// The two points farthest apart of those that share an abscissa, and how far they are apart: half of
+/// that is as close as any curve comes.
+pub(super) fn widest_at_one(polyline: &Polyline<'_>) -> Option<([usize; 2], f64)> {
+    let over = polyline.over?;
+    let mut widest: Option<([usize; 2], f64)> = None;
+    let mut first = 0;
+    for j in 1..over.len() {
+        if over[j] != over[first] {
+            first = j;
+        }
+        for i in (first..j).rev().take(MOST_COMPARED) {
+            let apart = distance(polyline.point(i), polyline.point(j));
+            if apart > widest.map_or(0.0, |(_, apart)| apart) {
+                widest = Some(([i, j], apart));
+            }
+        }
+    }
+    widest
+}
+
+/// Points before one that it is compared with, where many share an abscissa.
+const MOST_COMPARED: usize = 64;
 
 /// The abscissa of `given` points, of which the first `count` are fitted, if there is one.
 pub(super) fn of(

@@ -219,6 +219,13 @@ impl Attempt {
         Ok(())
     }
 
+    /// Corrects the parameters a few times, and measures all distances.
+    pub(super) fn settle(&mut self, problem: &Problem<'_>, times: usize) -> Result<(), Error> {
+        let knots = self.knots(problem)?;
+        (0..times).for_each(|_| self.measure(problem, &knots));
+        Ok(())
+    }
+
     /// Corrects the parameters and measures all distances.
     fn measure(&mut self, problem: &Problem<'_>, knots: &KnotVector) {
         let control = std::mem::take(&mut self.control);

@@ -26,7 +26,7 @@ use crate::geometry::Curve;
 use crate::iteration::{Flow, HistoryEntry, NoObserver, Observer, Snapshot, Termination, Trace};
 use crate::knots::check_degree;
 use crate::points::{Extent, Points, PointsView};
-use crate::report::{CurveReport, RunReport};
+use crate::report::{ApproximationReport, CurveReport, RunReport};
 use abscissa::Abscissa;
 use attempt::{Attempt, Effort};
 use corners::{AUTO_ANGLE, find_corners};
@@ -93,6 +93,60 @@ pub fn approximate_curve_observed<'a>(
     observer: &mut dyn Observer,
 ) -> Result<CurveFit, Error> {
     let points = points.into();
+    let fit = approximate(points, options, observer)?;
+    let account = Account::of(&fit);
+    let cheap = account.met && fit.report.control_points <= fit.report.points;
+    let stopped = fit.report.run.termination == Termination::Cancelled;
+    if options.corners != Corners::Auto || account.corners == 0 || cheap || stopped {
+        return Ok(fit);
+    }
+    // Of a polygon each point is a corner, and costs as much as several smooth ones.
+    let smooth = ApproximationOptions { corners: Corners::None, ..options.clone() };
+    let mut smooth = approximate(points, &smooth, observer)?;
+    if Account::of(&smooth).rank() <= account.rank() {
+        return Ok(fit);
+    }
+    smooth.report.run.choices.push(format!(
+        "corners: none are kept sharp, because with the {} that the data show the curve would have {} \
+         control points{}",
+        account.corners,
+        account.control_points,
+        if account.met { "" } else { " and be no closer" },
+    ));
+    Ok(smooth)
+}
+
+/// What decides between two fits.
+struct Account {
+    met: bool,
+    calm: bool,
+    corners: usize,
+    control_points: usize,
+}
+
+impl Account {
+    fn of(fit: &CurveFit) -> Self {
+        let account = fit.report.approximation.as_ref();
+        Self {
+            met: account.is_some_and(|account| account.met),
+            calm: account.is_some_and(ApproximationReport::is_calm),
+            corners: account.map_or(0, |account| account.corners.len()),
+            control_points: fit.report.control_points,
+        }
+    }
+
+    /// Greater is better.
+    fn rank(&self) -> (bool, bool, std::cmp::Reverse<usize>) {
+        (self.met, self.calm, std::cmp::Reverse(self.control_points))
+    }
+}
+
+/// One search, with the corners asked for.
+fn approximate(
+    points: PointsView<'_>,
+    options: &ApproximationOptions,
+    observer: &mut dyn Observer,
+) -> Result<CurveFit, Error> {
     check_degree(options.degree)?;
     let needed = options.degree.saturating_add(1);
     if points.is_empty() {
@@ -246,12 +300,26 @@ pub fn approximate_curve_observed<'a>(
     }
     let polyline =
         Polyline { data: &data, dimension, closed: options.closed, over: unit.as_deref() };
-    let verified = verify::verify(&curve, &polyline, &starts)?;
+    let verified =
+        verify::verify(&curve, &polyline, &starts, goal.judged.unwrap_or(f64::INFINITY))?;
     let mut account = verified.account;
     account.met = goal.judged.is_none_or(|limit| match goal.measure {
         Measure::Largest => account.max_distance <= limit,
         Measure::Rms | Measure::Noise => account.rms_distance <= limit,
     });
+    if goal.measure == Measure::Largest
+        && let Some(asked) = goal.judged
+        && let Some(([a, b], apart)) = abscissa::widest_at_one(&polyline)
+        && 0.5 * apart > asked
+    {
+        choices.push(format!(
+            "caution: points {} and {} are {:.3e} apart at one abscissa, so that no curve comes closer \
+             than half of that",
+            kept[a],
+            kept[b],
+            size.scale.undo(apart)
+        ));
+    }
     let limit = goal.tolerance.map_or(account.max_distance, |t| goal.measure.stray(t));
     account.calm_limit = 1.05 * limit + 1.5 * natural;
     account.corners = corners;

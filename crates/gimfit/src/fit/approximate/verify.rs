@@ -19,13 +19,17 @@ pub(super) struct Verified {
 
 /// Points named among the worst.
 const WORST: usize = 5;
+/// Legs on either side that a place of the curve may belong to, and the most.
+const NEAR: usize = 3;
+const FAR: usize = 1000;
 
 /// Projects all data points from their parameters, or where these stay looks at the points there, and
-/// samples the curve between them.
+/// samples the curve between them. Beyond `limit` foot points are looked for farther off, too.
 pub(super) fn verify(
     curve: &Curve,
     polyline: &Polyline<'_>,
     starts: &[f64],
+    limit: f64,
 ) -> Result<Verified, Error> {
     let (count, dimension) = (polyline.points(), polyline.dimension);
     let mut parameters = Vec::with_capacity(count);
@@ -39,7 +43,15 @@ pub(super) fn verify(
             parameters.push(start);
             distances.push(distance(point, &here));
         } else {
-            let foot = local_foot_point(curve, point, start)?;
+            let mut foot = local_foot_point(curve, point, start)?;
+            if foot.distance > limit {
+                for start in beside(starts, j) {
+                    let other = local_foot_point(curve, point, start)?;
+                    if other.distance < foot.distance {
+                        foot = other;
+                    }
+                }
+            }
             here.copy_from_slice(&foot.point);
             parameters.push(foot.parameter);
             distances.push(foot.distance);
@@ -77,6 +89,15 @@ pub(super) fn verify(
     })
 }
 
+/// Parameters of points before and after point `j`, more and more of them away.
+fn beside(starts: &[f64], j: usize) -> impl Iterator<Item = f64> {
+    const FARTHEST: u32 = 8;
+    (0..FARTHEST).flat_map(move |k| {
+        let before = j.checked_sub(1 << k).map(|i| starts[i]);
+        [before, starts.get(j + (1 << k)).copied()].into_iter().flatten()
+    })
+}
+
 /// How far the curve strays from the data polyline, sampled between parameters in order.
 fn overshoot(curve: &Curve, polyline: &Polyline<'_>, parameters: &[f64]) -> Result<f64, Error> {
     let &Polyline { dimension, closed, over, .. } = polyline;
@@ -95,7 +116,7 @@ fn overshoot(curve: &Curve, polyline: &Polyline<'_>, parameters: &[f64]) -> Resu
         if to <= end && over.is_none() {
             // No look where the curve cannot get that far.
             curve.evaluate_into(from, &mut point)?;
-            let off = polyline.nearest(leg, 3, &point, &mut nearest);
+            let off = polyline.nearest(leg, NEAR, &point, &mut nearest);
             let (first, last) = (curve.knots().span(from)?, curve.knots().span(to)?);
             let fastest = speeds[first - degree..last].iter().copied().fold(0.0, f64::max);
             if off + fastest * (to - from) <= worst {
@@ -106,7 +127,14 @@ fn overshoot(curve: &Curve, polyline: &Polyline<'_>, parameters: &[f64]) -> Resu
             let share = if to > from { (t - from) / (to - from) } else { 0.0 };
             let t = if t > end { t - (end - start) } else { t };
             curve.evaluate_into(t.clamp(start, end), &mut point)?;
-            worst = worst.max(polyline.strayed(leg, share, 3, &point, &mut nearest));
+            // Legs farther along are asked only where the answer counts.
+            let mut reach = NEAR;
+            let mut off = polyline.strayed(leg, share, reach, &point, &mut nearest);
+            while off > worst && over.is_none() && reach < FAR.min(polyline.legs()) {
+                reach *= 4;
+                off = polyline.strayed(leg, share, reach, &point, &mut nearest);
+            }
+            worst = worst.max(off);
         }
     }
     Ok(worst)
