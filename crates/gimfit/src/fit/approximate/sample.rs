@@ -166,8 +166,12 @@ fn less_calm(
         effort.most = effort.rounds + total / 2;
         let attempt = search::fewest(problem, 0, effort)?;
         if attempt.worst <= problem.enough {
+            // What is not calm should at least not cost more than an interpolant.
+            let costly = problem.control_points(attempt.breaks.len()) > problem.points();
             best = attempt;
-            break;
+            if !costly {
+                break;
+            }
         }
     }
     effort.most = total;

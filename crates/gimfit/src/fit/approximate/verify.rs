@@ -22,6 +22,12 @@ const WORST: usize = 5;
 /// Legs on either side that a place of the curve may belong to, and the most.
 const NEAR: usize = 3;
 const FAR: usize = 1000;
+/// A leg is looked at more closely from this part of the largest distance so far on, at so many places
+/// on either side.
+const NEARLY: f64 = 0.9;
+const CLOSELY: usize = 8;
+/// Not where the way between two points is short beside the distance: nothing hides there.
+const HIDDEN: f64 = 0.1;
 
 /// Projects all data points from their parameters, or where these stay looks at the points there, and
 /// samples the curve between them. Beyond `limit` foot points are looked for farther off, too.
@@ -113,17 +119,20 @@ fn overshoot(curve: &Curve, polyline: &Polyline<'_>, parameters: &[f64]) -> Resu
         if closed && to < from {
             to += end - start;
         }
-        if to <= end && over.is_none() {
-            // No look where the curve cannot get that far.
-            curve.evaluate_into(from, &mut point)?;
-            let off = polyline.nearest(leg, NEAR, &point, &mut nearest);
+        let mut way = f64::INFINITY;
+        if to <= end {
             let (first, last) = (curve.knots().span(from)?, curve.knots().span(to)?);
             let fastest = speeds[first - degree..last].iter().copied().fold(0.0, f64::max);
-            if off + fastest * (to - from) <= worst {
+            way = fastest * (to - from);
+        }
+        if over.is_none() && way < worst {
+            // No look where the curve cannot get that far.
+            curve.evaluate_into(from, &mut point)?;
+            if polyline.nearest(leg, NEAR, &point, &mut nearest) + way <= worst {
                 continue;
             }
         }
-        for t in looks(from, to, inner, false).into_iter().chain([from, to]) {
+        let mut look = |t: f64, worst: f64| -> Result<f64, Error> {
             let share = if to > from { (t - from) / (to - from) } else { 0.0 };
             let t = if t > end { t - (end - start) } else { t };
             curve.evaluate_into(t.clamp(start, end), &mut point)?;
@@ -134,8 +143,24 @@ fn overshoot(curve: &Curve, polyline: &Polyline<'_>, parameters: &[f64]) -> Resu
                 reach *= 4;
                 off = polyline.strayed(leg, share, reach, &point, &mut nearest);
             }
-            worst = worst.max(off);
+            Ok(off)
+        };
+        let mut farthest = (0.0, from);
+        for t in looks(from, to, inner, false).into_iter().chain([from, to]) {
+            let off = look(t, worst)?;
+            if off > farthest.0 {
+                farthest = (off, t);
+            }
         }
+        if farthest.0 > NEARLY * worst && way > HIDDEN * farthest.0 {
+            // Looked at more closely where that may count.
+            let step = (to - from) / CLOSELY as f64;
+            for k in 1..2 * CLOSELY {
+                let t = farthest.1 + step * (k as f64 / CLOSELY as f64 - 1.0);
+                worst = worst.max(look(t.clamp(from, to), worst)?);
+            }
+        }
+        worst = worst.max(farthest.0);
     }
     Ok(worst)
 }
