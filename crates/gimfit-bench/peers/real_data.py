@@ -41,6 +41,8 @@ OPTIONS = [
     ("curves/signals/", ["--abscissa", "x", "--sort"]),
     ("cerknicko-jezero.gpx", ["--part", "all"]),
     ("korita-zbevnica.gpx", ["--part", "all"]),
+    ("grids/rotor37", ["--index-columns", "surface,j", "--columns", "z_cm,r_cm,theta1"]),
+    ("grids/rotor67", ["--index-columns", "surface,j", "--columns", "axial_ft,rtheta_upper_ft,r_ft"]),
     ("scattered/ilvis2", ["--columns", "4,5,6"]),
 ]
 # The same points as another file, only parameters or only places.
