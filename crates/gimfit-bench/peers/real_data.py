@@ -2,7 +2,7 @@
 """Curves, grids and clouds measured by others, each within 1e-2, 1e-3 and 1e-4 of its extent: gimfit
 beside SciPy.
 
-usage: real_data.py FOLDER [--program GIMFIT] [--write] [--only TEXT] [--limit SECONDS]
+usage: real_data.py FOLDER [--program GIMFIT] [--write] [--kinds LIST] [--only TEXT] [--limit SECONDS]
 
 FOLDER holds curves/, grids/ and scattered/. gimfit is asked once for each distance, by --tolerance. SciPy
 has no largest distance: its smoothing factor is narrowed down until the largest distance keeps within,
@@ -327,8 +327,8 @@ def rows_of(case, limit):
 RATIOS, TALLY = {}, [0, 0]
 
 
-def files(folder, only):
-    for kind in ("curves", "grids", "scattered"):
+def files(folder, kinds, only):
+    for kind in kinds.split(","):
         for at, _, names in sorted(os.walk(os.path.join(folder, kind))):
             for name in sorted(names):
                 name = os.path.relpath(os.path.join(at, name), folder)
@@ -341,11 +341,12 @@ def main():
     parser.add_argument("folder")
     parser.add_argument("--program", default=os.path.join(ROOT, "target", "release", "gimfit"))
     parser.add_argument("--write", action="store_true")
+    parser.add_argument("--kinds", default="curves,grids,scattered")
     parser.add_argument("--only", default="")
     parser.add_argument("--limit", type=float, default=20.0)
     arguments = parser.parse_args()
     found = {}
-    for name in files(arguments.folder, arguments.only):
+    for name in files(arguments.folder, arguments.kinds, arguments.only):
         print(name, file=sys.stderr)
         kind = name.split("/")[0]
         case = Case(arguments.program, arguments.folder, name)

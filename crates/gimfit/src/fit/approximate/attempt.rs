@@ -322,8 +322,11 @@ impl Attempt {
             let places = looks(from, to, &self.breaks, problem.closed);
             let short = problem.leg_length(leg) <= 0.5 * problem.allowance;
             if short && places.len() < 9 {
-                // A polynomial between points this close.
-                continue;
+                // A polynomial between points this close, unless it takes its time.
+                let middle = self.strayed(problem, curve, Guard { leg, share: 0.5 }, place);
+                if middle <= 0.5 {
+                    continue;
+                }
             }
             let mut worst = (problem.enough, None);
             for t in places {

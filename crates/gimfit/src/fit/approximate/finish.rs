@@ -5,7 +5,7 @@ use super::goal::ScaledGoal;
 use super::options::ApproximationOptions;
 use super::pieces::Joined;
 use super::polyline::Polyline;
-use super::problem::Measure;
+use super::problem::{Measure, REPORTED, STRAY};
 use super::verify;
 use crate::Error;
 use crate::fit::CurveFit;
@@ -98,7 +98,7 @@ pub(super) fn finish(found: Found<'_>) -> Result<CurveFit, Error> {
         ));
     }
     let limit = goal.tolerance.map_or(account.max_distance, |t| goal.measure.stray(t));
-    account.calm_limit = 1.05 * limit + 1.5 * natural;
+    account.calm_limit = STRAY * limit + REPORTED * natural;
     account.corners = corners;
     account.outliers = outliers;
     account.noise = goal.noise.map(|(deviation, _)| deviation);

@@ -70,10 +70,12 @@ pub(super) struct Problem<'a> {
 }
 
 /// Share of the distance allowed that the curve may stray beyond what the data themselves explain.
-const STRAY: f64 = 1.05;
+pub(super) const STRAY: f64 = 1.05;
 /// Multiple of the overshoot of a local interpolant that passes for calm; a little less than the 1.5
 /// reported, since the curve is watched at places.
 const NATURAL: f64 = 1.4;
+/// The multiple that is reported.
+pub(super) const REPORTED: f64 = 1.5;
 /// Noise of this part of the mean leg, and more, misleads chords.
 const NOISY: f64 = 0.1;
 /// Legs up to this many standard deviations may be noise.
@@ -205,6 +207,12 @@ impl<'a> Problem<'a> {
     pub(super) fn allow(&mut self, tolerance: f64) {
         self.tolerance = tolerance;
         self.allowance = NATURAL * self.natural + STRAY * self.measure.stray(tolerance);
+    }
+
+    /// The judged ratio up to which a report calls the curve calm.
+    pub(super) fn nearly_calm(&self) -> f64 {
+        let reported = REPORTED * self.natural + STRAY * self.measure.stray(self.tolerance);
+        (reported / self.allowance).max(self.enough)
     }
 
     /// Data points.

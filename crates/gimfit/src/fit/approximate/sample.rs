@@ -138,11 +138,8 @@ fn run(
         Some(breaks) => search::best_with(problem, breaks, effort),
         None => {
             let found = search::fewest(problem, 0, effort)?;
-            if found.worst <= problem.enough {
-                Ok(found)
-            } else {
-                less_calm(problem, found, effort)
-            }
+            let near = found.distances()[0] <= 1.0 && found.worst <= problem.nearly_calm();
+            if near { Ok(found) } else { less_calm(problem, found, effort) }
         }
     }
 }
@@ -155,7 +152,7 @@ fn less_calm(
     effort: &mut Effort<'_>,
 ) -> Result<Attempt, Error> {
     /// How much farther it may stray.
-    const FARTHER: [f64; 3] = [2.0, 8.0, f64::INFINITY];
+    const FARTHER: [f64; 4] = [1.3, 2.5, 8.0, f64::INFINITY];
     let (allowance, total) = (problem.allowance, effort.most);
     let mut best = found;
     for factor in FARTHER {
