@@ -139,7 +139,12 @@ fn run(
         None => {
             let found = search::fewest(problem, 0, effort)?;
             let near = found.distances()[0] <= 1.0 && found.worst <= problem.nearly_calm();
-            if near { Ok(found) } else { less_calm(problem, found, effort) }
+            // To leave out noise counts more than to keep a mean of it.
+            if near || found.worst <= problem.enough || problem.measure != Measure::Largest {
+                Ok(found)
+            } else {
+                less_calm(problem, found, effort)
+            }
         }
     }
 }
