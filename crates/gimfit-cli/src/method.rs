@@ -48,7 +48,7 @@ pub(crate) fn method(arguments: &IterationArguments, of_triangle: bool) -> anyho
         | MethodChoice::Epia
         | MethodChoice::Cgls
         | MethodChoice::Pcg => bail!(
-            "--method {} is for curves with fewer control points than points",
+            "--method {} is for curves and grids with fewer control points than points",
             arguments.method_name()
         ),
     })

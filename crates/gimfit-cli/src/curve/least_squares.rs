@@ -179,7 +179,7 @@ fn refuse_others(arguments: &CurveArguments) -> anyhow::Result<()> {
 }
 
 /// The weight of `--weight`: auto, published or a number.
-fn weight(text: &str) -> anyhow::Result<LeastSquaresWeight> {
+pub(crate) fn weight(text: &str) -> anyhow::Result<LeastSquaresWeight> {
     match text {
         "auto" => Ok(LeastSquaresWeight::Auto),
         "published" => Ok(LeastSquaresWeight::Published),

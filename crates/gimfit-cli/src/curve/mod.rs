@@ -11,7 +11,9 @@ mod print;
 mod save;
 
 pub(crate) use approximation::{ApproximationArguments, CornersChoice};
-pub(crate) use least_squares::LeastSquaresArguments;
+pub(crate) use least_squares::{
+    LeastSquaresArguments, method as least_squares_method, weight as least_squares_weight,
+};
 
 use crate::Ending;
 use crate::arguments::CurveArguments;

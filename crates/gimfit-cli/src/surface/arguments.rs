@@ -21,7 +21,8 @@ Examples:
   gimfit surface torus.csv --closed both --method pia --keep 0,3,15 -o torus.json
   gimfit surface peaks.csv --knots at-data --per-direction
   gimfit surface heights.csv --move 8,5=4,7,120.5 -o edited.json
-  gimfit surface hull.csv --tolerance 0.01 -o hull.json"
+  gimfit surface hull.csv --tolerance 0.01 -o hull.json
+  gimfit surface hull.csv --method least-squares --control-points 12x20 -o hull.json"
 )]
 pub(crate) struct SurfaceArguments {
     #[command(flatten)]
@@ -49,6 +50,15 @@ pub(crate) struct SurfaceArguments {
     /// number per row for u, one per column for v
     #[arg(long, help_heading = "Iteration")]
     pub(crate) per_direction: bool,
+
+    /// With a method of least squares: start open directions at the first and end them at the last row
+    /// or column
+    #[arg(long, help_heading = "Least squares")]
+    pub(crate) hold_ends: bool,
+
+    /// Seed of random-columns and random-rows; the same seed draws the same [default: 0]
+    #[arg(long, value_name = "N", help_heading = "Least squares")]
+    pub(crate) seed: Option<u64>,
 
     /// Move a point of the grid after the fit, such as 8,5=1,2,0.5: only control points nearby move.
     /// May be given several times

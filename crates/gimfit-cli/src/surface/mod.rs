@@ -4,6 +4,7 @@ mod approximation;
 mod arguments;
 mod draw;
 mod edit;
+mod least_squares;
 mod plan;
 mod print;
 mod save;
@@ -23,7 +24,8 @@ use gimfit::fit::approximate_surface_observed;
 use gimfit::fit::fit_blending_surface_observed;
 use gimfit::iteration::Observer;
 use gimfit::{
-    BlendingSurfaceOptions, Error, GridView, SurfaceFit, SurfaceOptions, fit_surface_observed,
+    BlendingSurfaceOptions, Error, GridView, SurfaceFit, SurfaceOptions, fit_least_squares_surface,
+    fit_surface_observed,
 };
 use gimfit_io::document::{Seconds, SurfaceBlendingData, SurfaceDocument, surface_document_of};
 use gimfit_io::grids::PointGrid;
@@ -100,26 +102,32 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
     );
     signal::listen()?;
     let clock = Instant::now();
-    let Plan { mut grid, options, bases, remarks } = Plan::new(arguments)?;
+    let Plan { mut grid, options, bases, remarks, least_squares } = Plan::new(arguments)?;
     let read = clock.elapsed().as_secs_f64();
 
     let unused = [&grid.row_abscissae, &grid.column_abscissae].map(Option::is_some) == [true; 2]
         && arguments.grid.parameters.is_none();
     let view = GridView::new([grid.rows, grid.columns], grid.dimension(), &grid.coordinates)
         .map_err(|error| explain(error, &grid))?;
-    let approximation = arguments.approximation.options(options.degrees, options.closed);
+    let approximation = match least_squares {
+        Some(_) => None,
+        None => arguments.approximation.options(options.degrees, options.closed),
+    };
     let quiet = arguments.writing.quiet;
     let mut progress = match &approximation {
         Some(_) => Progress::of_search(quiet, grid.dimension()),
         None => Progress::new(quiet, options.iterations),
     };
     let clock = Instant::now();
-    let result = match (&bases, &approximation) {
-        (_, Some(options)) => {
+    let result = match (&bases, &approximation, &least_squares) {
+        (_, _, Some(options)) => fit_least_squares_surface(view, options).map(|fit| (fit, None)),
+        (_, Some(options), _) => {
             approximate_surface_observed(view, options, &mut progress).map(|fit| (fit, None))
         }
-        (None, None) => fit_surface_observed(view, &options, &mut progress).map(|fit| (fit, None)),
-        (Some(bases), None) => blended(view, bases, &options, &mut progress),
+        (None, None, _) => {
+            fit_surface_observed(view, &options, &mut progress).map(|fit| (fit, None))
+        }
+        (Some(bases), None, _) => blended(view, bases, &options, &mut progress),
     };
     progress.finish();
     let (mut fit, blending) = result.map_err(|error| explain(error, &grid))?;
@@ -145,7 +153,11 @@ pub(crate) fn run(arguments: &SurfaceArguments) -> anyhow::Result<Ending> {
         convex: None,
         run: Run::of(
             &report.run,
-            if approximation.is_some() { Sought::Distance } else { Sought::Residual },
+            match (&approximation, &least_squares) {
+                (Some(_), _) => Sought::Distance,
+                (_, Some(_)) => Sought::LeastSquares,
+                _ => Sought::Residual,
+            },
         ),
     };
     finish.finish(&mut job, print::report)

@@ -1,15 +1,16 @@
 //! From arguments to a grid and options, with all that can be checked before the run.
 
 use super::arguments::{ClosedChoice, GridArguments, GridParameterRule, SurfaceArguments};
+use super::least_squares;
 use crate::arguments::{KnotRule, RuleOrFile};
 use crate::basis::{basis, ensure_document_holds, ensure_no_foot_points, only_b_splines};
-use crate::curve::{degree, knot_placement};
+use crate::curve::{degree, knot_placement, least_squares_method};
 use crate::input;
 use crate::method::{ensure_kept_fits_fit, method, only_windows, weight, weight_file};
 use crate::targets::is_standard;
 use anyhow::{Context, bail, ensure};
 use gimfit::basis::BlendingBasis;
-use gimfit::{Parameterization, SurfaceOptions, SurfaceWeight};
+use gimfit::{LeastSquaresSurfaceOptions, Parameterization, SurfaceOptions, SurfaceWeight};
 use gimfit_io::grids::{GridOptions, PointGrid, read_grid};
 use std::path::Path;
 use std::sync::Arc;
@@ -22,6 +23,8 @@ pub(super) struct Plan {
     pub(super) bases: Option<[Arc<dyn BlendingBasis>; 2]>,
     /// What was made of the arguments that a reader of the report must know.
     pub(super) remarks: Vec<String>,
+    /// Fewer control points than points, over knots that stay.
+    pub(super) least_squares: Option<LeastSquaresSurfaceOptions>,
 }
 
 impl Plan {
@@ -31,6 +34,12 @@ impl Plan {
             "--convex keeps the turns of planar polygons; a net of control points has none: fit \
              its rows or columns one by one with gimfit curve"
         );
+        if least_squares_method(arguments.iteration.method).is_some() {
+            let form = form(&arguments.grid)?;
+            let least_squares = least_squares::options(arguments, &form)?;
+            let Form { grid, options, remarks, .. } = form;
+            return Ok(Self { grid, options, bases: None, remarks, least_squares });
+        }
         let method = method(&arguments.iteration, false)?;
         let weight = surface_weight(&arguments.iteration.weight)?;
         ensure!(
@@ -39,7 +48,10 @@ impl Plan {
              a whole has one",
             arguments.iteration.weight
         );
-        let Form { grid, options, bases, remarks } = form(&arguments.grid)?;
+        let form = form(&arguments.grid)?;
+        least_squares::options(arguments, &form)?;
+        arguments.approximation.check(arguments)?;
+        let Form { grid, options, bases, remarks } = form;
         arguments.ensure_moves_fit()?;
         let numbers = grid.coordinates.len();
         ensure_kept_fits_fit(
@@ -69,7 +81,7 @@ impl Plan {
             keep: arguments.iteration.keep.clone(),
             ..options
         };
-        Ok(Self { grid, options, bases, remarks })
+        Ok(Self { grid, options, bases, remarks, least_squares: None })
     }
 }
 
