@@ -410,6 +410,29 @@ proptest! {
 }
 
 #[test]
+fn ends_that_are_held_are_met() {
+    for (count, goal) in [(200, Goal::Tolerance(0.05)), (60, Goal::ControlPoints(7))] {
+        let points = wave(count);
+        let flat = flat(&points);
+        let view = PointsView::new(3, &flat).unwrap();
+        let options = ApproximationOptions { hold_ends: true, ..ApproximationOptions::new(goal) };
+        let fit = approximate_curve(view, &options).unwrap();
+        assert!(fit.report.approximation.as_ref().unwrap().met);
+        let samples = dense(&fit, 2);
+        let ends = [(&samples[0], &points[0]), (&samples[samples.len() - 1], &points[count - 1])];
+        for (end, point) in ends {
+            assert!(distance(end, point) < 1e-13);
+        }
+        if count == 200 {
+            let free = approximate_curve(view, &ApproximationOptions::new(goal)).unwrap();
+            assert!(distance(&dense(&free, 2)[0], &points[0]) > 1e-6);
+        }
+        let closed = ApproximationOptions { closed: true, ..options };
+        assert!(matches!(approximate_curve(view, &closed), Err(Error::Incompatible { .. })));
+    }
+}
+
+#[test]
 fn where_nothing_is_calm_the_distance_is_kept_with_no_more_control_points_than_points() {
     // An islet of four points, and a polygon whose points are all corners.
     let islet =

@@ -176,13 +176,22 @@ impl ApproximationArguments {
         degree: usize,
         closed: bool,
         abscissae: Option<Vec<f64>>,
+        hold_ends: bool,
     ) -> anyhow::Result<Option<ApproximationOptions>> {
         let goal = match (self.tolerance, self.rms, self.noise, self.control_points) {
             (Some(tolerance), ..) => Goal::Tolerance(tolerance),
             (_, Some(rms), ..) => Goal::Rms(rms),
             (_, _, Some(NoiseChoice(deviation)), _) => Goal::Noise(deviation),
             (.., Some(count)) => Goal::ControlPoints(count),
-            _ => return Ok(None),
+            _ => {
+                ensure!(
+                    !hold_ends,
+                    "--hold-ends belongs to methods of least squares, such as --method least-squares, \
+                     and to --tolerance, --rms, --noise and --control-points: a curve through all points \
+                     ends at them"
+                );
+                return Ok(None);
+            }
         };
         let corners = self.corners.map_or(Corners::Auto, |choice| choice.0);
         ensure!(
@@ -193,6 +202,7 @@ impl ApproximationArguments {
             degree,
             closed,
             abscissae,
+            hold_ends,
             corners,
             robust: self.robust.map(|choice| match choice {
                 RobustChoice::Huber => Robust::Huber,

@@ -23,7 +23,8 @@ pub(crate) struct LeastSquaresArguments {
     #[arg(long, value_name = "FILE", help_heading = "Least squares")]
     pub(crate) data_weights: Option<PathBuf>,
 
-    /// With a method of least squares: start an open curve at the first point and end it at the last
+    /// With a method of least squares, or within a distance: start an open curve at the first point and
+    /// end it at the last
     #[arg(long, help_heading = "Least squares")]
     pub(crate) hold_ends: bool,
 
@@ -75,7 +76,6 @@ pub(super) fn options(
     let Some(method) = method(choice) else {
         let foreign = [
             ("--data-weights", own.data_weights.is_some()),
-            ("--hold-ends", own.hold_ends),
             ("--constraints", own.constraints.is_some()),
             ("--start", own.start.is_some()),
             ("--seed", own.seed.is_some()),

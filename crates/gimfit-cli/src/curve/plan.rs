@@ -75,7 +75,9 @@ impl Plan {
             (Some(_), Some(Parameterization::Given(values))) => Some(values.clone()),
             _ => None,
         };
-        let approximate = approximation.options(options.degree, options.closed, abscissae)?;
+        let hold_ends = arguments.least_squares.hold_ends;
+        let approximate =
+            approximation.options(options.degree, options.closed, abscissae, hold_ends)?;
         let recipe = match (approximate, basis) {
             (Some(options), _) => Recipe::Approximate(options),
             (None, Some(basis)) => Recipe::Blend(basis),

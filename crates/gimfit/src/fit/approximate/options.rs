@@ -51,6 +51,8 @@ pub struct ApproximationOptions {
     pub abscissae: Option<Vec<f64>>,
     /// Corners that stay sharp.
     pub corners: Corners,
+    /// Whether an open curve starts at the first point and ends at the last.
+    pub hold_ends: bool,
     /// Whether outliers are looked for, to be left out of the fit and named in the report.
     pub robust: Option<Robust>,
     /// Most rounds of fitting and correcting parameters; `None`: as many as take a second or two.
@@ -73,6 +75,7 @@ impl ApproximationOptions {
             closed: false,
             abscissae: None,
             corners: Corners::Auto,
+            hold_ends: false,
             robust: None,
             rounds: None,
         }

@@ -30,6 +30,13 @@ pub(super) fn approximate(
     observer: &mut dyn Observer,
 ) -> Result<CurveFit, Error> {
     check_degree(options.degree)?;
+    if options.hold_ends && options.closed {
+        return Err(Error::Incompatible {
+            what: "held ends",
+            with: "a closed curve",
+            why: "it has no ends",
+        });
+    }
     let needed = options.degree.saturating_add(1);
     if points.is_empty() {
         return Err(Error::NoPoints { needed });
@@ -139,7 +146,7 @@ pub(super) fn approximate(
     let to_split = Polyline { closed: options.closed, ..polyline };
     for piece in pieces::split(&to_split, &corners) {
         let mut problem = Problem::new(piece.polyline(), options.degree, goal.measure, tolerance);
-        problem.pinned = !corners.is_empty();
+        problem.pinned = options.hold_ends || !corners.is_empty();
         let mut watch = |round: usize, attempt: &Attempt, tolerance: f64| {
             watch(spent + round, attempt, tolerance)
         };
