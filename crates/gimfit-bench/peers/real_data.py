@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Curves, grids and clouds measured by others, each within 1e-2, 1e-3 and 1e-4 of its extent: gimfit
-beside SciPy.
+"""Curves and grids measured by others, each within 1e-2, 1e-3 and 1e-4 of its extent: gimfit beside
+SciPy.
 
-usage: real_data.py FOLDER [--program GIMFIT] [--write] [--kinds LIST] [--only TEXT] [--limit SECONDS]
+usage: real_data.py FOLDER [--program GIMFIT] [--write] [--only TEXT] [--limit SECONDS]
 
-FOLDER holds curves/, grids/ and scattered/. gimfit is asked once for each distance, by --tolerance. SciPy
+FOLDER holds curves/ and grids/. gimfit is asked once for each distance, by --tolerance. SciPy
 has no largest distance: its smoothing factor is narrowed down until the largest distance keeps within,
 which takes about sixteen calls; times are those of all of them. Curves: splprep, distances by dense
-sampling. Heights over a grid: RectBivariateSpline. Heights over scattered places: SmoothBivariateSpline.
+sampling. Heights over a grid: RectBivariateSpline.
 The same sampling measures what gimfit wrote. A case of SciPy that takes longer than the limit is ended.
 """
 import argparse
@@ -23,7 +23,7 @@ import warnings
 import xml.etree.ElementTree as tree
 
 import numpy as np
-from scipy.interpolate import BSpline, RectBivariateSpline, SmoothBivariateSpline, splev, splprep, splrep
+from scipy.interpolate import BSpline, RectBivariateSpline, splev, splprep, splrep
 from scipy.spatial import cKDTree
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -43,10 +43,9 @@ OPTIONS = [
     ("korita-zbevnica.gpx", ["--part", "all"]),
     ("grids/rotor37", ["--index-columns", "surface,j", "--columns", "z_cm,r_cm,theta1"]),
     ("grids/rotor67", ["--index-columns", "surface,j", "--columns", "axial_ft,rtheta_upper_ft,r_ft"]),
-    ("scattered/ilvis2", ["--columns", "4,5,6"]),
 ]
 # The same points as another file, only parameters or only places.
-LEFT_OUT = [r"gpx/.*\.csv$", r"ship_hull_params", r"scattered/nodes_", r"\.las$"]
+LEFT_OUT = [r"gpx/.*\.csv$", r"ship_hull_params"]
 
 
 def options(name):
@@ -145,16 +144,6 @@ def scipy_heights(heights, tolerance):
     return narrowed(attempt, tolerance, heights.size * tolerance ** 2 / 4)
 
 
-def scipy_scattered(points, tolerance):
-    x, y, z = points.T
-
-    def attempt(s):
-        fit = SmoothBivariateSpline(x - x.mean(), y - y.mean(), z, s=s)
-        return fit.get_coeffs().size, np.abs(fit.ev(x - x.mean(), y - y.mean()) - z).max()
-
-    return narrowed(attempt, tolerance, len(x) * tolerance ** 2 / 4)
-
-
 def within(limit, work, *arguments):
     """What a function returns and how long it takes, in a process that is ended after the limit."""
     def run(send):
@@ -218,7 +207,7 @@ class Case:
     def __init__(self, program, folder, name):
         self.program, self.path, self.name = program, os.path.join(folder, name), name
         self.kind = name.split("/")[0]
-        command = {"curves": "curve", "grids": "surface", "scattered": "scattered"}[self.kind]
+        command = {"curves": "curve", "grids": "surface"}[self.kind]
         self.line = [command, self.path, *options(name)]
 
     def gimfit(self, tolerance):
@@ -254,17 +243,8 @@ class Case:
                 order = np.argsort(self.abscissae(points), kind="stable")
                 return within(limit, scipy_values, x, points[order, 0], tolerance)
             return within(limit, scipy_curve, points, tolerance)
-        if self.kind == "grids":
-            matrix = heights(self.path, self.name)
-            return "no surface" if matrix is None else within(limit, scipy_heights, matrix, tolerance)
-        points = load(self.path, self.name, document)
-        if points is None or points.shape[1] != 3 or "u" in self.columns():
-            return "no surface"
-        return within(limit, scipy_scattered, points, tolerance)
-
-    def columns(self):
-        with open(self.path) as file:
-            return file.readline().strip().split(",")
+        matrix = heights(self.path, self.name)
+        return "no surface" if matrix is None else within(limit, scipy_heights, matrix, tolerance)
 
     def abscissae(self, points):
         """What a signal is sorted by."""
@@ -327,8 +307,8 @@ def rows_of(case, limit):
 RATIOS, TALLY = {}, [0, 0]
 
 
-def files(folder, kinds, only):
-    for kind in kinds.split(","):
+def files(folder, only):
+    for kind in ("curves", "grids"):
         for at, _, names in sorted(os.walk(os.path.join(folder, kind))):
             for name in sorted(names):
                 name = os.path.relpath(os.path.join(at, name), folder)
@@ -341,12 +321,11 @@ def main():
     parser.add_argument("folder")
     parser.add_argument("--program", default=os.path.join(ROOT, "target", "release", "gimfit"))
     parser.add_argument("--write", action="store_true")
-    parser.add_argument("--kinds", default="curves,grids,scattered")
     parser.add_argument("--only", default="")
     parser.add_argument("--limit", type=float, default=20.0)
     arguments = parser.parse_args()
     found = {}
-    for name in files(arguments.folder, arguments.kinds, arguments.only):
+    for name in files(arguments.folder, arguments.only):
         print(name, file=sys.stderr)
         kind = name.split("/")[0]
         case = Case(arguments.program, arguments.folder, name)
@@ -372,7 +351,7 @@ def page(found, limit):
         "Distances are parts of the extent (of heights over a grid: of the range of the heights): the larger",
         "one of gimfit's own and, for curves, that of dense sampling by the program that prints this page.",
         "",
-        f"Taken on {facts['date']} on {facts['processor']}, {facts['cores']}; Rust {facts['Rust']}, "
+        f"Taken on {facts['date']} on {facts['processor']}, {facts['cores'].split(',')[0]} cores; Rust {facts['Rust']}, "
         f"Python {facts['Python']}.",
         "",
         f"{TALLY[1]} of {TALLY[0]} cases keep their distance.",
